@@ -9,11 +9,11 @@
 
 namespace spring_workbench::benchmark {
 
-/// A solver whose steps are its own: how they end where one is to stop.
+/// A solver that chooses its own step sizes: makes steps end at requested times.
 class AdaptiveSolver : public OdeSolver {
  public:
-  static constexpr int most_equations = 12;
-  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_equations, 1>;
+  static constexpr int max_equations = 12;
+  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_equations, 1>;
 
   const double* advance(double t, bool stop_there) final {
     while (t_ < t) {
@@ -44,16 +44,16 @@ class AdaptiveSolver : public OdeSolver {
     return std::sqrt(v.cwiseQuotient(scale).squaredNorm() / static_cast<double>(v.size()));
   }
 
-  double t_ = 0.0, before_ = 0.0;  ///< the last step's end and start
-  double h_ = 0.0;                 ///< what is to be the next step; 0: to be found
+  double t_ = 0.0, before_ = 0.0;  ///< end and start of the last step
+  double h_ = 0.0;                 ///< size of the next step; 0: not determined yet
   double tolerance_ = 0.0;
-  State y_, absolute_;        ///< the state at t_; the absolute tolerances
-  bool rates_known_ = false;  ///< those at t_
+  State y_, absolute_;        ///< state at t_; absolute tolerances
+  bool rates_known_ = false;  ///< whether the rates at t_ are known
 
  private:
-  /// One step, no longer than `longest`.
+  /// Takes a step of at most `longest`.
   virtual void step(double longest) = 0;
-  /// The state after this share of the last step.
+  /// The state after a fraction `share` of the last step.
   virtual State within_last_step(double share) = 0;
 
   State output_;

@@ -48,7 +48,7 @@ class Arkode final : public OdeSolver {
     require(ARKStepSetOrder(arkode_, 5), "ARKStepSetOrder");
     require(ARKStepSetMaxNumSteps(arkode_, 10000000), "ARKStepSetMaxNumSteps");
     require(ARKStepSVtolerances(arkode_, tolerance, absolute_), "ARKStepSVtolerances");
-    // As its guide advises where the equation may be stiff.
+    // As recommended in its guide for equations that may be stiff.
     if (implicit_) require(ARKStepSetInterpolantType(arkode_, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
     if (implicit_) require(ARKStepSetLinearSolver(arkode_, linear_solver_, matrix_), "ARKStepSetLinearSolver");
   }
@@ -56,7 +56,7 @@ class Arkode final : public OdeSolver {
   const double* advance(double t, bool stop_there) override {
     if (stop_there) require(ARKStepSetStopTime(arkode_, t), "ARKStepSetStopTime");
     if (t > reached_) require(ARKStepEvolve(arkode_, t, y_, &reached_, ARK_NORMAL), "ARKStepEvolve");
-    if (stop_there) require(ARKStepReset(arkode_, t, y_), "ARKStepReset");  // the rates may jump; the step's size stays
+    if (stop_there) require(ARKStepReset(arkode_, t, y_), "ARKStepReset");  // the rates may jump; keeps the step size
     return N_VGetArrayPointer(y_);
   }
 

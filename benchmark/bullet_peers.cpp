@@ -18,7 +18,7 @@ btTransform to_bullet(const Matrix3d& R, const Vector3d& p) {
                      to_bullet(p));
 }
 
-/// A Bullet world with the held object alone, at the scene's start.
+/// A Bullet world that contains only the held object, at the start of the scene.
 class BulletWorld {
  public:
   explicit BulletWorld(const Scenario& scene)
@@ -45,7 +45,7 @@ class BulletWorld {
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  /// Adds a body that collides with nothing.
+  /// Adds a body without collisions.
   void add(btRigidBody& body) { world_.addRigidBody(&body, 0, 0); }
   void add(btTypedConstraint& constraint) { world_.addConstraint(&constraint, true); }
   void step(double h) { world_.stepSimulation(h, 0); }
@@ -107,7 +107,7 @@ class BulletExplicit : public Method {
         object.applyTorque(to_bullet(body.R_WO * load.moment_O));
       }
     };
-    // The twist's spring bears the object's weight nowhere: B's object stays where it is.
+    // The torsion spring does not carry the weight: no gravity in scene B.
     if (scene.kind == SceneKind::torsion) object.setGravity(btVector3(0.0, 0.0, 0.0));
     return stepping_loop(
         scene, step,
@@ -139,7 +139,7 @@ class BulletSpring2 : public Method {
       return to_bullet(state.R_WT, state.p_WT);
     };
     hand.setWorldTransform(hand_transform(0.0));
-    hand.setInterpolationWorldTransform(hand_transform(-h));  // Bullet takes the hand's velocity from the difference
+    hand.setInterpolationWorldTransform(hand_transform(-h));  // Bullet computes the hand's velocity from the difference
     world.add(hand);
     if (scene.kind == SceneKind::torsion) world.object().setGravity(btVector3(0.0, 0.0, 0.0));
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kOurs = "exponential";
 
-/// As Pair::peer_beyond, for errors that the line of `method` does not reach.
+/// Computes Pair::peer_beyond, for errors that the curve of `method` does not reach.
 double end_of_line(const std::vector<ErrorRow>& rows, const std::string& method) {
   const ErrorRow *last = nullptr, *best = nullptr;
   for (const ErrorRow& row : rows) {
@@ -18,18 +18,18 @@ double end_of_line(const std::vector<ErrorRow>& rows, const std::string& method)
     last = &row;
     if (row.finite && (best == nullptr || row.error < best->error)) best = &row;
   }
-  const bool still_coming_down = last != nullptr && last == best;  // no run broke down, none was without gain
+  const bool still_coming_down = last != nullptr && last == best;  // every run succeeded and reduced the error
   return still_coming_down ? last->wall_us_per_simulated_second : std::numeric_limits<double>::infinity();
 }
 
-/// Whether errors of this size can be told of `method`: of one with a limit of its own, as small as twice the
-/// uncertainty of that limit, if it was found.
-bool can_be_told(const std::vector<ErrorRow>& rows, const std::string& method, const ErrorTarget& target) {
+/// Whether errors of this size are significant for `method`: for one that is measured against its own limit, down to
+/// twice the uncertainty of that limit, if it was found.
+bool is_resolved(const std::vector<ErrorRow>& rows, const std::string& method, const ErrorTarget& target) {
   for (const ErrorRow& row : rows) {
     if (row.method != method) continue;
     if (!row.own_reference) return true;
     if (row.finite && row.error > 0.0 && row.largest_deflection > 0.0) {
-      return target.error >= least_of_reference * row.reference_uncertainty * row.*target.measure / row.error;
+      return target.error >= min_of_reference * row.reference_uncertainty * row.*target.measure / row.error;
     }
   }
   return false;
@@ -80,9 +80,9 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
   for (const ErrorRow& row : rows) {
     const auto same = [&](const Pair& pair) { return pair.peer == row.method; };
     if (row.ours || !wanted(row.method) || std::any_of(pairs.begin(), pairs.end(), same)) continue;
-    if (!can_be_told(rows, row.method, target)) continue;
+    if (!is_resolved(rows, row.method, target)) continue;
     const std::vector<CurvePoint> line = line_of(row.method);
-    const double error = std::min(target.error, std::max(first_error(line), least_error(ours)));
+    const double error = std::min(target.error, std::max(first_error(line), min_error(ours)));
     pairs.push_back({row.method, error, run_time_for_error(ours, error), run_time_for_error(line, error),
                      end_of_line(rows, row.method)});
   }

@@ -9,10 +9,10 @@
 
 namespace spring_workbench::benchmark {
 
-/// Times the uncertainty of a reference: a smaller error says nothing, since a line ends there.
-constexpr double least_of_reference = 2.0;
+/// Multiple of the reference's uncertainty below which an error is not significant; curves end there.
+constexpr double min_of_reference = 2.0;
 
-/// What an error is asked to be: a share of the hand's amplitude or of the largest deflection.
+/// A target for errors: a fraction of the hand's amplitude or of the largest deflection.
 struct ErrorTarget {
   double error = 1e-6;
   ErrorMeasure measure = &ErrorRow::error_over_hand_amplitude;
@@ -20,18 +20,18 @@ struct ErrorTarget {
   std::string text() const;  ///< e.g. "1e-06 of the amplitude"
 };
 
-/// Ours, `exponential`, beside one other method at an error that both have: the target, or the error with which the
-/// other's line begins where that is smaller, or, where ours was not measured as far down, the least that ours has.
+/// Our integrator `exponential` compared with one other method at an error that both reach: the target; or the first
+/// error of the other's curve, if that is smaller; or our smallest error, if ours was not measured down to the target.
 struct Pair {
   std::string peer;
-  double error = 0.0;                     ///< compared at, in the target's measure
-  std::optional<double> ours, peer_time;  ///< [µs per simulated second]; none where the error is not reached
-  /// Where the peer does not reach it: it is slower than that, since its line was still coming down where it ends, by
-  /// its budget of time or its finest setting [µs per simulated second]; infinite where it comes no further down.
+  double error = 0.0;                     ///< error at which they are compared, in the target's measure
+  std::optional<double> ours, peer_time;  ///< [µs per simulated second]; none if the error is not reached
+  /// Lower bound of the peer's run time if it does not reach the error, because its curve was still falling where it
+  /// ended (time limit or finest setting) [µs per simulated second]; infinite if its curve has levelled off.
   double peer_beyond = 0.0;
 
-  /// The peer's run time over ours, or, where its line ended before, what that exceeds: infinite where only
-  /// ours arrives, 0 where only the peer does, nothing where neither does.
+  /// Ratio of the peer's run time to ours, or a lower bound if its curve ended before. Infinite if only ours reaches
+  /// the error, 0 if only the peer does, nothing if neither does.
   std::optional<double> ratio() const;
 };
 
@@ -39,17 +39,17 @@ struct Pair {
 struct SceneRows {
   std::vector<ErrorRow> rows;
 
-  /// The target as a share of the largest deflection.
+  /// The target as a fraction of the largest deflection.
   double share_of_deflection(const ErrorTarget& target) const;
-  /// Of the reference, in the target's measure.
+  /// Uncertainty of the reference, in the target's measure.
   double uncertainty(const ErrorTarget& target) const;
-  /// Ours beside each of the methods that are not ours and `wanted`, those that compare worst for ours first; those
-  /// where neither arrives are last. Without peers whose own limit, against which they are measured, is not known well
-  /// enough for the target.
+  /// Compares ours with each `wanted` method of others. The worst results for ours come first, those that neither
+  /// reaches last. Skips peers that are measured against their own limit if that is not known well enough for the
+  /// target.
   std::vector<Pair> pairs(const ErrorTarget& target, const std::function<bool(const std::string&)>& wanted) const;
 };
 
-/// The rows of each scene as title_of() tells them apart, in their order.
+/// The rows grouped by title_of(), in their order.
 std::vector<SceneRows> by_scene(const std::vector<ErrorRow>& rows);
 
 }  // namespace spring_workbench::benchmark

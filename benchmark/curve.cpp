@@ -7,7 +7,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kLeastError = 1e-18;  // what a logarithm still takes
+constexpr double kMinError = 1e-18;  // so that logarithms stay finite
 
 }  // namespace
 
@@ -15,12 +15,12 @@ std::optional<double> run_time_for_error(std::vector<CurvePoint> points, double 
   std::sort(points.begin(), points.end(), [](const CurvePoint& a, const CurvePoint& b) {
     return a.run_time < b.run_time || (a.run_time == b.run_time && a.error < b.error);
   });
-  const CurvePoint* before = nullptr;  // the last of the front
+  const CurvePoint* before = nullptr;  // the last point of the front
   for (const CurvePoint& point : points) {
     if (before != nullptr && point.error >= before->error) continue;
     if (point.error <= error) {
       if (before == nullptr) return point.run_time;
-      const double from = std::log(before->error), to = std::log(std::max(point.error, kLeastError));
+      const double from = std::log(before->error), to = std::log(std::max(point.error, kMinError));
       const double share = (from - std::log(error)) / (from - to);
       return before->run_time * std::pow(point.run_time / before->run_time, share);
     }
@@ -35,7 +35,7 @@ double first_error(const std::vector<CurvePoint>& points) {
   return cheapest == points.end() ? std::numeric_limits<double>::infinity() : cheapest->error;
 }
 
-double least_error(const std::vector<CurvePoint>& points) {
+double min_error(const std::vector<CurvePoint>& points) {
   double least = std::numeric_limits<double>::infinity();
   for (const CurvePoint& point : points) least = std::min(least, point.error);
   return least;

@@ -8,26 +8,25 @@
 
 namespace spring_workbench::benchmark {
 
-/// A measured setting: what it costs and how wrong it is.
+/// A measured setting: its cost and its error.
 struct CurvePoint {
   double run_time = 0.0;
   double error = 0.0;
 };
 
-/// The run time that an error of `error` costs: on the front of the points that none beats in both, between its two
-/// neighbours by a power law (a straight line in log-log). Where the cheapest point is as good already, its run time;
-/// nothing where none is.
+/// Run time at which an error of `error` is reached, interpolated on the Pareto front of the points by a power law (a
+/// straight line in log-log). If the cheapest point already reaches it, its run time; nothing if no point does.
 std::optional<double> run_time_for_error(std::vector<CurvePoint> points, double error);
 
-/// The error of the cheapest of the points: a line begins there. Infinite for no points.
+/// Error of the cheapest point, where a curve begins. Infinite if there are no points.
 double first_error(const std::vector<CurvePoint>& points);
-/// The least error of the points. Infinite for no points.
-double least_error(const std::vector<CurvePoint>& points);
+/// Smallest error of the points. Infinite if there are no points.
+double min_error(const std::vector<CurvePoint>& points);
 
-/// Which of the errors of a row.
+/// One of the errors of a row.
 using ErrorMeasure = double ErrorRow::*;
 
-/// The finite rows that are `wanted`, those to a tolerance that chooses our steps left out.
+/// The finite rows that are `wanted`, except runs of ours to a tolerance.
 std::vector<CurvePoint> curve(const std::vector<ErrorRow>& rows, const std::function<bool(const ErrorRow&)>& wanted,
                               ErrorMeasure measure = &ErrorRow::error_over_hand_amplitude);
 

@@ -53,19 +53,19 @@ class Cvode final : public OdeSolver {
     std::copy(y.begin(), y.end(), N_VGetArrayPointer(y_));
     std::copy(scale.begin(), scale.end(), N_VGetArrayPointer(absolute_));
     N_VScale(tolerance, absolute_, absolute_);
-    begin_anew(t);
+    reinitialise(t);
     require(CVodeSVtolerances(cvode_, tolerance, absolute_), "CVodeSVtolerances");
   }
 
   const double* advance(double t, bool stop_there) override {
     if (stop_there) require(CVodeSetStopTime(cvode_, t), "CVodeSetStopTime");
     if (t > reached_) require(CVode(cvode_, t, y_, &reached_, CV_NORMAL), "CVode");
-    if (stop_there) begin_anew(t);
+    if (stop_there) reinitialise(t);
     return N_VGetArrayPointer(y_);
   }
 
  private:
-  void begin_anew(double t) {
+  void reinitialise(double t) {
     reached_ = t;
     require(CVodeReInit(cvode_, t, y_), "CVodeReInit");
   }

@@ -35,8 +35,8 @@ Inertia object_inertia(const Scenario& scene) {
   return inertia;
 }
 
-/// A hand on a joint with prescribed acceleration, and on it the object by joints with implicit springs: a slide or a
-/// hinge (A, B); a translational and a ball joint with a body of next to no mass between them (C).
+/// A hand on a joint with prescribed acceleration, and the object connected to it by joints with implicit springs: a
+/// slide or a hinge (A, B), or a translational and a ball joint with a body of negligible mass in between (C).
 class DartWorld {
  public:
   DartWorld(const Scenario& scene, double h) : scene_(scene), skeleton_(Skeleton::create("fork")) {

@@ -10,7 +10,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr int kStepStages = 12;  // of a step; the 13th are the rates at its end, three more are for the dense output
+constexpr int kStepStages = 12;  // stages of a step; the 13th is at its end, three more are for dense output
 constexpr int kStages = 16;
 
 constexpr double kC[kStages] = {0.0,
@@ -79,7 +79,7 @@ constexpr double kDense[4][kStages] = {
     {-25.69393346270375, 0, 0, 0, 0, -154.18974869023643, -231.5293791760455, 357.6391179106141, 93.40532418362432,
      -37.45832313645163, 104.0996495089623, 29.8402934266605, -43.53345659001114, 96.32455395918828, -39.17726167561544,
      -149.72683625798564}};
-// The method of order three less that of order eight has these weights of its own.
+// Weights of the difference between the methods of order three and eight.
 constexpr double kOf3[3] = {0.244094488188976377952755905512, 0.733846688281611857341361741547,
                             0.220588235294117647058823529412e-1};
 
@@ -103,7 +103,7 @@ class Dop853 final : public AdaptiveSolver {
     return evaluate(t_ + kC[i] * h, y, i);
   }
 
-  /// As of Hairer, Nørsett and Wanner, II.4.
+  /// First step size (Hairer, Nørsett and Wanner, II.4).
   double first_step() {
     const State scale = absolute_ + tolerance_ * y_.cwiseAbs(), f = k_.col(0);
     const double d0 = norm(y_, scale), d1 = norm(f, scale);
@@ -145,7 +145,8 @@ class Dop853 final : public AdaptiveSolver {
         continue;
       }
       const double next = h * (rejected ? std::min(factor, 1.0) : factor);
-      h_ = h < h_ ? std::max(h_, next) : next;  // cut short for a stop: what was to be the step is as good as before
+      h_ = h < h_ ? std::max(h_, next)
+                  : next;  // the step was shortened for a stop, so the previous step size is still valid
       accept(h, y);
       return;
     }
@@ -162,7 +163,7 @@ class Dop853 final : public AdaptiveSolver {
     rates_known_ = true;
   }
 
-  /// The polynomial of the last step: three more evaluations, once.
+  /// Evaluates the polynomial of the last step, which takes three more evaluations once.
   State within_last_step(double share) override {
     if (!dense_) make_dense(t_ - before_);
     State y = share * polynomial_[6];
@@ -193,10 +194,10 @@ class Dop853 final : public AdaptiveSolver {
   }
 
   Rates rates_;
-  Eigen::Matrix<double, Eigen::Dynamic, kStages, 0, most_equations, kStages> k_;
-  State from_, first_;  ///< the last step's start and the rates there
+  Eigen::Matrix<double, Eigen::Dynamic, kStages, 0, max_equations, kStages> k_;
+  State from_, first_;  ///< start of the last step, and the rates there
   State polynomial_[7];
-  bool dense_ = false;  ///< the last step's polynomial is known
+  bool dense_ = false;  ///< whether the polynomial of the last step is known
 };
 
 }  // namespace

@@ -35,8 +35,7 @@ double root_of_load(double slope) {
   return std::comp_ellint_1(m.k) - std::ellint_1(m.k, m.phi);
 }
 
-/// The body on the tip of a rod that hardly extends or twists: its mass sets no more than the scale of the
-/// accelerations, which vanish.
+/// The body on the tip of a rod that hardly extends or twists. Its mass only scales the accelerations, which vanish.
 dynamics::HeldBody bending_body(const std::string& shape) {
   dynamics::HeldBody body(
       rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), kLength),

@@ -5,7 +5,8 @@
 
 namespace spring_workbench::benchmark {
 
-/// Tip of a cantilever under a transverse dead load at its tip: slope [rad], deflection and shortening over the length.
+/// Tip of a cantilever under a transverse dead load at its tip: slope [rad], deflection and shortening relative to the
+/// length.
 struct TipDeflection {
   double slope = 0.0;
   double deflection = 0.0;
@@ -17,10 +18,10 @@ struct TipDeflection {
 /// 1 − u/L = √(2 sin ψ / α) (Bisshopp and Drucker 1945).
 TipDeflection exact_elastica(double alpha);
 
-/// The static answer of a shape model with bending alone, by Newton's method on its equation of motion.
+/// The static deflection of a shape model with bending alone, by Newton's method on its equation of motion.
 TipDeflection shape_deflection(const std::string& shape, double alpha);
 
-/// A shape model at a load: how far its tip is from the exact one, over the length.
+/// Error of a shape model at a load: distance of its tip from the exact one, relative to the length.
 struct ElasticaRow {
   std::string shape;
   double alpha = 0.0;
@@ -35,11 +36,11 @@ void each_field(ElasticaRow& r, Fields& fields) {
 }
 std::vector<ElasticaRow> elastica_table();
 
-/// What one evaluation of the equation of motion costs with a shape model, all families on [ns].
+/// Cost of one evaluation of the equation of motion with a shape model, all DOFs on [ns].
 double evaluation_cost(const std::string& shape);
 
 /// Largest difference of exact_elastica() from the table `elastica.csv` of deflections, shortenings and slopes in
-/// `folder`; negative where it is not there.
+/// `folder`; negative if the file is missing.
 double elastica_check(const std::string& folder);
 
 std::string elastica_csv(const std::vector<ElasticaRow>& rows);

@@ -20,18 +20,20 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
                                 end = handle.in_own_axes(now.t);
     const Vector3d &u0 = begin.v_W, u1 = (4.0 * middle.v_W - 3.0 * begin.v_W - end.v_W) / h,
                    u2 = 2.0 * (begin.v_W - 2.0 * middle.v_W + end.v_W) / (h * h);
-    const Vector3d way = now.p_WO - last_.p_WO, kick = now.v_WO_W - last_.v_WO_W;
-    // ∫(p − p_0) dt: of the handle's way, which is a cubic, and of the body's beside it, by the cubic through both ends
-    // or, where it swings faster than that can tell, by a straight line.
-    const Vector3d handle_way = end.X.translation() - begin.X.translation(),
-                   handle_area = h / 6.0 * (4.0 * (middle.X.translation() - begin.X.translation()) + handle_way);
-    const Vector3d bow = -h * h / 12.0 * (kick - (end.v_W - begin.v_W));
+    const Vector3d displacement = now.p_WO - last_.p_WO, velocity_change = now.v_WO_W - last_.v_WO_W;
+    // ∫(p − p_0) dt for the handle, which moves along a cubic, and for the body relative to it, from the cubic through
+    // both ends or, if it oscillates too fast for that, a straight line.
+    const Vector3d handle_displacement = end.X.translation() - begin.X.translation(),
+                   handle_area =
+                       h / 6.0 * (4.0 * (middle.X.translation() - begin.X.translation()) + handle_displacement);
+    const Vector3d chord_deviation = -h * h / 12.0 * (velocity_change - (end.v_W - begin.v_W));
     const double widest = 2.0 * h * deflection_;
-    const Vector3d area =
-        handle_area + 0.5 * h * (way - handle_way) + (bow.norm() <= widest ? bow : Vector3d(Vector3d::Zero()));
-    work_ += mass_ * (u0.dot(kick) + u1.dot(h * now.v_WO_W - way) +
-                      u2.dot(h * h * now.v_WO_W - 2.0 * h * way + 2.0 * area) + kGravity * handle_way.z());
-    work_squares_ += std::pow(2.0 * mass_ * u2.norm() * std::min(bow.norm(), widest), 2);
+    const Vector3d area = handle_area + 0.5 * h * (displacement - handle_displacement) +
+                          (chord_deviation.norm() <= widest ? chord_deviation : Vector3d(Vector3d::Zero()));
+    work_ +=
+        mass_ * (u0.dot(velocity_change) + u1.dot(h * now.v_WO_W - displacement) +
+                 u2.dot(h * h * now.v_WO_W - 2.0 * h * displacement + 2.0 * area) + kGravity * handle_displacement.z());
+    work_squares_ += std::pow(2.0 * mass_ * u2.norm() * std::min(chord_deviation.norm(), widest), 2);
     estimated_ += now.estimated;
     all_estimated_ += now.estimated;
   }
@@ -39,7 +41,7 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
   last_ = now;
   largest_ = std::max(largest_, now.moving);
   const double balance = now.moving + mass_ * kGravity * now.p_WO.z() - work_;
-  growth_ = std::max(growth_, balance - lowest_ - std::min(estimated_, most_share * largest_));
+  growth_ = std::max(growth_, balance - lowest_ - std::min(estimated_, max_share * largest_));
   if (balance > lowest_) return;
   lowest_ = balance;
   estimated_ = 0.0;

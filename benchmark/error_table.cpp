@@ -22,10 +22,10 @@ std::vector<Scenario> scenes_of(bool quick) {
   for (const double k : springs) known.push_back(stretch_scene(k));
   for (const double k : twists) known.push_back(torsion_scene(k));
   for (const double factor : factors) known.push_back(six_dof_scene(factor));
-  // What a user has: a tracker's poses; soft and stiff, light and heavy.
+  // The practical case: poses of a tracker; soft and stiff, light and heavy.
   for (const double factor : factors) sampled.push_back(six_dof_scene(factor));
   if (!quick) {
-    // A tonne on the soft fork would hang metres below the hand, turned round and round.
+    // A tonne on the soft fork would hang metres below the hand, wound up.
     for (const auto& [factor, mass] : {std::pair{1.0, 1e-3}, {1e6, 1e-3}, {1e4, 1e3}, {1e6, 1e3}}) {
       sampled.push_back(six_dof_scene(factor, 1.0, mass));
     }
@@ -57,7 +57,7 @@ ErrorTablePlan error_table_plan(bool quick) {
 
 namespace {
 
-/// Runs with steps halved twice; false when one of them is not finite.
+/// Makes three runs with steps halved twice; returns false if one of them is not finite.
 bool run_three(const Method& method, const Scenario& scene, int steps, double time_limit,
                std::array<RunResult, 3>& runs) {
   double step = scene.output_interval / steps;
@@ -92,13 +92,13 @@ ReferenceSolution own_solution(const Method& method, const Scenario& scene, int 
 
 namespace {
 
-/// The same scene with outputs half-way between its own, too.
+/// The scene with additional outputs halfway between its own.
 Scenario with_halfway_outputs(Scenario scene) {
   scene.output_interval *= 0.5;
   return scene;
 }
 
-/// Every other output: those of the scene itself.
+/// Every other output, i.e. those of the scene itself.
 ReferenceSolution at_own_outputs(ReferenceSolution reference) {
   for (std::size_t i = 0; 2 * i < reference.outputs.size(); ++i) reference.outputs[i] = reference.outputs[2 * i];
   reference.outputs.resize((reference.outputs.size() + 1) / 2);
@@ -129,7 +129,7 @@ class Line {
     for (const int n : plan.steps_per_output) settings_.push_back(scene.output_interval / n);
   }
 
-  /// The next row; false where there is none.
+  /// Measures the next row; returns false if there is none.
   bool advance() {
     if (rows_.size() == settings_.size()) return false;
     if (!rows_.empty() && (rows_.back().given_up || line_is_over(rows_, plan_.longest_run))) return false;
@@ -175,8 +175,7 @@ class Line {
     return row;
   }
 
-  /// Another run, of which nothing is timed: its steps end half-way between the outputs, too, but where they may be
-  /// longer than that.
+  /// An untimed run with additional outputs halfway between; its steps end there, too, unless they may be longer.
   RunResult run_between(double setting) const {
     const bool is_long = setting > 1.000001 * scene_.output_interval || method_.knob() == Method::Knob::tolerance;
     const double nearer = is_long ? setting : std::min(setting, halfway_.output_interval);
@@ -187,8 +186,8 @@ class Line {
   const Scenario& scene_;
   Scenario halfway_;
   const ErrorTablePlan& plan_;
-  ReferenceSolution between_, reference_;  ///< half-way, too; at the outputs
-  bool own_ = false;                       ///< measured against the limit of its own results
+  ReferenceSolution between_, reference_;  ///< with halfway outputs; at the outputs
+  bool own_ = false;                       ///< whether it is measured against its own limit
   double model_error_ = 0.0;
   std::vector<double> settings_;
   std::vector<ErrorRow> rows_;
@@ -243,7 +242,7 @@ void take_turns(const std::vector<std::function<bool()>>& lines) {
 }
 
 std::vector<std::size_t> in_turns(const std::vector<ErrorRow>& rows) {
-  std::vector<std::pair<std::size_t, std::size_t>> order;  // place in its line, number
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // position in its curve, index
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool same = i > 0 && rows[i - 1].method == rows[i].method;
     order.emplace_back(same ? order.back().first + 1 : 0, i);
@@ -258,7 +257,7 @@ std::size_t unit_count(const ErrorTablePlan& plan) { return 2 * plan.scenes.size
 
 namespace {
 
-/// Of every method on one scene.
+/// Rows of every method on one scene.
 std::vector<ErrorRow> scene_rows(const std::vector<const Method*>& methods, const Scenario& scene,
                                  const ErrorTablePlan& plan) {
   const ReferenceSolution reference = reference_solution(with_halfway_outputs(scene));
@@ -275,7 +274,7 @@ std::vector<ErrorRow> scene_rows(const std::vector<const Method*>& methods, cons
   return rows;
 }
 
-/// The rows of one scene with the run time of other runs where these are less.
+/// The rows of one scene with the run times of a second measurement if these are smaller.
 std::vector<ErrorRow> timed_again(const std::vector<const Method*>& methods, const Scenario& scene,
                                   std::vector<ErrorRow> rows, const ErrorTablePlan& plan) {
   for (const std::size_t i : in_turns(rows)) {

@@ -13,20 +13,21 @@ namespace spring_workbench::benchmark {
 /// What an error table covers.
 struct ErrorTablePlan {
   std::vector<Scenario> scenes;
-  std::vector<double> outputs_per_step;  ///< methods that take long steps on a known hand: output_interval times these
-  std::vector<int> steps_per_output;     ///< methods with a step take output_interval divided by these
-  std::vector<double> tolerances;        ///< methods with a tolerance
-  int own_solution_steps = 0;            ///< steps per output of the coarsest of the three runs of own_solution()
-  double longest_run = 0.025;            ///< a line ends with the first run that takes longer [s per simulated second]
+  std::vector<double>
+      outputs_per_step;  ///< methods that can take long steps on a known hand: steps of output_interval times these
+  std::vector<int> steps_per_output;  ///< methods with a step: steps of output_interval divided by these
+  std::vector<double> tolerances;     ///< methods with a tolerance
+  int own_solution_steps = 0;         ///< steps per output of the coarsest of the three runs of own_solution()
+  double longest_run = 0.025;         ///< a curve ends with the first run that takes longer [s per simulated second]
   Repetition repetition;
-  double run_limit = 1.0;    ///< of a run and its repetitions: given up after that, and so are finer ones [s]
-  double time_limit = 20.0;  ///< of a run for own_solution() [s]
+  double run_limit = 1.0;    ///< limit of a run with its repetitions; it is then given up, and so are finer ones [s]
+  double time_limit = 20.0;  ///< limit of a run for own_solution() [s]
 };
 
 /// The plan for the report: all stiffnesses and steps, or a few of them.
 ErrorTablePlan error_table_plan(bool quick);
 
-/// A line of the table.
+/// A row of the table.
 struct ErrorRow {
   std::string scene;
   double stiffness_factor = 1.0;
@@ -34,30 +35,30 @@ struct ErrorRow {
   std::string shape = "bushing";
   std::string method;
   bool ours = false;
-  /// What everybody knows of the hand: "function" of time, asked for whenever they like, or "samples": the poses of a
-  /// tracker, a motion through which is the same for all.
+  /// How the hand is given to the methods: as a "function" of time, evaluated whenever they like, or as "samples", the
+  /// poses of a tracker with the same interpolated motion for all.
   std::string hand = "function";
   double step = 0.0;                   ///< [s]; 0 for a method with a tolerance
   double tolerance = 0.0;              ///< 0 for a method with a step
-  bool own_reference = false;          ///< measured against the method's own solution
+  bool own_reference = false;          ///< whether the error is measured against the method's own limit
   double reference_uncertainty = 0.0;  ///< [m or rad]
-  double hand_error = 0.0;             ///< as of ReferenceSolution [m or rad]
+  double hand_error = 0.0;             ///< see ReferenceSolution [m or rad]
   double largest_deflection = 0.0;     ///< of the reference [m or rad]
-  /// What is compared, the largest of: position_error, error_between, and of rods angle_error times the distance of
-  /// the body's farthest point from its centre of mass [m; in B rad].
+  /// The error that is compared: the largest of position_error, error_between and, for rods, angle_error times the
+  /// distance of the body's farthest point from its centre of mass [m; in B rad].
   double error = 0.0;
-  double position_error = 0.0;  ///< of the centre of mass, or in B of the twist, at the outputs [m or rad]
-  double error_between = 0.0;   ///< the same in a run that is also asked half-way between the outputs
-  double angle_error = 0.0;     ///< the same runs' [rad]; of rods alone
+  double position_error = 0.0;  ///< of the centre of mass (in B: of the twist) at the outputs [m or rad]
+  double error_between = 0.0;   ///< the same in a run with additional outputs halfway between
+  double angle_error = 0.0;     ///< angle error of these runs, for rods only [rad]
   double error_over_hand_amplitude = 0.0;
   double error_over_largest_deflection = 0.0;
-  double wall_us_per_simulated_second = 0.0;  ///< of a run that was given up: it takes longer than this
+  double wall_us_per_simulated_second = 0.0;  ///< a lower bound if the run was given up
   double steps_per_second = 0.0;              ///< taken, per simulated second; 0: not known
-  double error_over_tolerance = 0.0;          ///< of rods run to a tolerance: error_as_length() over it
-  double model_error = 0.0;  ///< with `own_reference`: how far that solution is from the exact one [as error]
+  double error_over_tolerance = 0.0;          ///< for rods run to a tolerance: error_as_length() divided by it
+  double model_error = 0.0;                   ///< with `own_reference`: error of that limit itself [as error]
   bool finite = false;
-  long steps_fallback = 0;  ///< as of RunResult
-  bool given_up = false;    ///< not finished within the plan's limit for a run
+  long steps_fallback = 0;  ///< see RunResult
+  bool given_up = false;    ///< whether the run exceeded the plan's limit
 };
 
 template <typename Fields>
@@ -68,36 +69,36 @@ void each_field(ErrorRow& r, Fields& fields) {
          r.steps_per_second, r.error_over_tolerance, r.model_error, r.finite, r.steps_fallback, r.given_up);
 }
 
-/// What a row is about: scene, stiffness, mass and what is known of the hand, for tables and verdicts.
+/// Title of a row for tables and verdicts: scene, stiffness, mass and how the hand is known.
 std::string title_of(const ErrorRow& row);
 
-/// The limit to which a method converges: three runs with steps halved twice from `output_interval / steps`, by
-/// Richardson's extrapolation of the terms in h and h². Its uncertainty is the last correction of that. Where a run is
-/// not finite, all three are made with smaller steps, down to an eighth; empty outputs when that is not enough.
+/// The limit to which a method converges, by Richardson extrapolation of the terms in h and h² from three runs with
+/// steps `output_interval / steps` and two halvings. Its uncertainty is the last correction. If a run is not finished,
+/// all three are repeated with smaller steps, down to an eighth; if that is not enough, the outputs are empty.
 ReferenceSolution own_solution(const Method& method, const Scenario& scene, int steps, double time_limit);
 
-/// Whether its run time stands in a comparison: that of every peer, and of our default integrator.
+/// Whether the row's run time is used in comparisons: for every peer and for our default integrator.
 bool is_compared(const ErrorRow& row);
 
-/// Whether a line that gave `rows` so far, finest last, is worth no finer setting: its last run took longer than
-/// `longest_run` [s per simulated second], it is down at the uncertainty of its reference, or three settings in a row
-/// have not lowered its error.
+/// Whether a curve with these `rows`, finest last, needs no finer setting: its last run took longer than `longest_run`
+/// [s per simulated second], it has reached the uncertainty of its reference, or three settings in a row have not
+/// reduced its error.
 bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run);
 
-/// Lets lines take turns: each is asked for its next row until it says that there is none.
+/// Measures curves in turns: calls each for its next row until it returns false.
 void take_turns(const std::vector<std::function<bool()>>& lines);
 
-/// Numbers of `rows`, of which those of a method follow each other, in the order in which the methods take turns.
+/// Indices of `rows`, which are grouped by method, in the order in which the methods take turns.
 std::vector<std::size_t> in_turns(const std::vector<ErrorRow>& rows);
 
-/// The rows with a header line, as CSV.
+/// Writes the rows as CSV with a header line.
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
 std::string as_csv(const std::vector<ErrorRow>& rows);
 
-/// The rows of all lines, a line for each method on each scene, coarsest first, until line_is_over(). A scene is two
-/// units of work, both of one shard: its rows, and, when all scenes have been through, the run times that are compared
-/// once more, of which the lesser ones count. In both the methods take turns, setting by setting, so that whatever the
-/// machine does meets all of them.
+/// The rows of all curves, one for each method on each scene, coarsest first, until line_is_over(). A scene is two
+/// units of work of the same shard: its rows, and later, after all scenes, a second measurement of the compared run
+/// times, of which the smaller ones count. In both, the methods take turns, setting by setting, so that disturbances of
+/// the machine affect all of them.
 std::size_t unit_count(const ErrorTablePlan& plan);
 std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units);
 

@@ -18,7 +18,7 @@ Vector3d exact_output(const Scenario& scene, double t);
 
 /// Exact outputs of scenes A and B on a sampled hand, at output_times(scene), which are those of its samples: between
 /// two of them the hand moves along a cubic, so its acceleration and the steady part of the deflection are linear in
-/// time, and the transient goes on from what is left of the last piece.
+/// time, and the transient continues from the end of the previous segment.
 std::vector<Vector3d> exact_outputs_on_samples(const Scenario& scene);
 
 }  // namespace spring_workbench::benchmark

@@ -13,13 +13,13 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr int points = 256;  ///< intervals at which shapes are compared
+constexpr int points = 256;  ///< number of intervals at which shapes are compared
 
-/// Bending in the plane x, z of a rod of unit length: slope, curvature and place, all along the arc length.
+/// Bending of a rod of unit length in the x–z plane: slope, curvature and position as functions of arc length.
 using Section = Eigen::Vector4d;  // θ, θ', x, z
 using Sections = std::vector<Section>;
 
-/// The cantilever under a transverse force P that keeps its direction, with EI = L = 1: θ'' = −P cos θ, θ(0) = 0.
+/// The cantilever under a transverse force P of fixed direction, with EI = L = 1: θ'' = −P cos θ, θ(0) = 0.
 Sections integrate(double force, double curvature_at_clamp) {
   constexpr int steps_per_interval = 16;
   const auto rate = [force](const Section& y) {
@@ -36,7 +36,7 @@ Sections integrate(double force, double curvature_at_clamp) {
   return sections;
 }
 
-/// By shooting: no curvature at the free end.
+/// Solves for zero curvature at the free end by shooting.
 Sections cantilever(double force) {
   double low = 0.0, high = force;
   for (int i = 0; i < 60; ++i) {
@@ -46,7 +46,7 @@ Sections cantilever(double force) {
   return integrate(force, high);
 }
 
-/// The tip is shifted but not turned: two cantilevers of half the length, the second one turned by half a turn.
+/// The tip is displaced without rotation: two cantilevers of half the length, the second one rotated by half a turn.
 Sections s_shape(double force) {
   const Sections half = cantilever(0.25 * force);
   const Section tip = half.back();
@@ -88,7 +88,7 @@ double thread_time() {  // [s]
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Least processor time of many runs [µs].
+/// Minimum processor time over many runs [µs].
 template <typename Work>
 double cost_us(Work&& work) {
   double least = std::numeric_limits<double>::infinity();
@@ -113,7 +113,7 @@ double length_of(const fork_mesh::ForkCurve& curve) {
 }
 
 fork_mesh::ForkModel fine_fork() {
-  fork_mesh::ForkLook look;
+  fork_mesh::ForkAppearance look;
   look.points_per_turn = 64;
   look.wire_sides = 16;
   return fork_mesh::ForkModel(look);
@@ -132,7 +132,7 @@ ForkCurveRow measure(const std::string& name, const Sections& exact, MakeCurve&&
   row.length_error = std::abs(length_of(curve) - 1.0);
   row.curve_us = cost_us(make);
   fork_mesh::ForkMesh mesh;
-  row.deform_us = cost_us([&] { fork.deform(curve, fork_mesh::usual_diameter, mesh); });
+  row.deform_us = cost_us([&] { fork.deform(curve, fork_mesh::default_diameter, mesh); });
   row.vertices = fork.vertex_count();
   return row;
 }

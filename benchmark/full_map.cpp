@@ -24,7 +24,7 @@ struct NumberedCell {
   StabilityRun cell;
 };
 
-/// What the file has; cuts off a line that has no end.
+/// Reads the cells of the file; removes an incomplete last line.
 std::vector<NumberedCell> read_cells(const std::string& path) {
   std::vector<NumberedCell> cells;
   std::ifstream in(path, std::ios::binary);
@@ -44,7 +44,7 @@ std::vector<NumberedCell> read_cells(const std::string& path) {
   return cells;
 }
 
-/// All numbers below `size`, seeded.
+/// All numbers below `size` in a seeded random order.
 std::vector<std::size_t> shuffled(std::size_t size) {
   std::vector<std::size_t> numbers(size);
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -62,7 +62,7 @@ auto place(const StabilityRun& one) {
 
 std::size_t full_map_size(const StabilityPlan& plan) {
   return plan.integrators.size() * plan.shapes.size() * plan.stiffness_factors.size() * plan.masses.size() *
-         plan.steps.size() * plan.damping_ratios.size() * plan.families.size() * plan.hands.size() * plan.tails.size();
+         plan.steps.size() * plan.damping_ratios.size() * plan.dofs.size() * plan.hands.size() * plan.tails.size();
 }
 
 StabilityRun full_map_cell(const StabilityPlan& plan, std::size_t i) {
@@ -79,7 +79,7 @@ StabilityRun full_map_cell(const StabilityPlan& plan, std::size_t i) {
   one.cell.mass = take(plan.masses);
   one.cell.step = take(plan.steps);
   one.cell.damping_ratio = take(plan.damping_ratios);
-  one.cell.families = take(plan.families);
+  one.cell.dofs = take(plan.dofs);
   one.cell.hand = take(plan.hands);
   one.cell.tail = take(plan.tails);
   one.cell.seconds = plan.seconds * (std::mt19937(static_cast<unsigned>(i))() % plan.long_one == 0 ? 6.0 : 1.0);

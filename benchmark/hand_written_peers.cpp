@@ -54,8 +54,8 @@ class SemiImplicitEuler : public Method {
   }
 };
 
-/// Asks for the hand once at each distinct moment: the middle stages share theirs, and the last one's is the next
-/// step's first.
+/// Evaluates the hand once per distinct time: the middle stages share it, and the last one is the first of the next
+/// step.
 class RungeKutta4 : public Method {
  public:
   std::string name() const override { return "hand_rk4"; }

@@ -4,7 +4,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// State of the held object in world: the form in which an engine keeps it.
+/// State of the held object in world, as stored by a physics engine.
 struct BodyState {
   Vector3d p_WO = Vector3d::Zero();  ///< [m]
   Quaterniond R_WO = Quaterniond::Identity();
@@ -24,15 +24,15 @@ struct BushingState {
   Vector6d q_dot = Vector6d::Zero();
 };
 
-/// The object that the bushing state puts in world.
+/// The state of the object in world for a state of the bushing.
 BodyState body_state(const Scenario& scene, const HandState& hand, const BushingState& state);
 
 /// The bushing state of an object in world; |φ| below π.
 BushingState bushing_state(const Scenario& scene, const HandState& hand, const BodyState& body);
 
-/// What the bushing does to the object, without gravity. With `F = −(k d + c ḋ)` in T and the generalised moment
-/// `τ = −(k φ + c φ̇)`, virtual work gives the force F at the tip and the moment `J_r⁻ᵀ(φ) τ` in E, `J_r` the right
-/// Jacobian of SO(3) (`J_r φ̇` is the tip's rate relative to T, in E).
+/// Load of the bushing on the object, without gravity. With `F = −(k d + c ḋ)` in T and the generalised moment `τ = −(k
+/// φ + c φ̇)`, virtual work gives the force F at the tip and the moment `J_r⁻ᵀ(φ) τ` in E, `J_r` the right Jacobian of
+/// SO(3) (`J_r φ̇` is the tip's rate relative to T, in E).
 BodyLoad bushing_load(const Scenario& scene, const HandState& hand, const BushingState& state, const Matrix3d& R_WO);
 BodyLoad bushing_load(const Scenario& scene, const HandState& hand, const BodyState& body);
 
@@ -50,7 +50,7 @@ BodyAcceleration body_acceleration(const Scenario& scene, const BodyLoad& load, 
 /// The object at t = 0: zero strain, zero strain rate.
 BodyState start_state(const Scenario& scene);
 
-/// Where the object would be if the fork were rigid: A and C its centre [m], B (0, 0, twist) [rad].
+/// Output for a rigid fork: A and C centre of the object [m], B (0, 0, twist) [rad].
 Vector3d rigid_output(const Scenario& scene, double t);
 
 /// The same output for an object at `X_WO`.

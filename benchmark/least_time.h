@@ -13,13 +13,14 @@ inline double thread_nanoseconds() {
   return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
-/// Least time of a call [ns], told which of `calls` it is, over many short runs, fewer of long ones.
+/// Minimum time of a call [ns] over many short runs, fewer if a call takes long. `call` is given the index of the call,
+/// less than `calls`.
 template <typename Call>
-double least_nanoseconds(int calls, Call&& call) {
-  constexpr int most_runs = 40, least_runs = 3;
+double min_nanoseconds(int calls, Call&& call) {
+  constexpr int max_runs = 40, min_runs = 3;
   constexpr double enough = 1e8;  // [ns] in all
   double best = std::numeric_limits<double>::infinity(), spent = 0.0;
-  for (int run = 0; run < least_runs || (run < most_runs && spent < enough); ++run) {
+  for (int run = 0; run < min_runs || (run < max_runs && spent < enough); ++run) {
     const double begin = thread_nanoseconds();
     for (int i = 0; i < calls; ++i) call(i);
     const double time = thread_nanoseconds() - begin;

@@ -10,10 +10,10 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr int kLeastRests = 5;  // samples
+constexpr int kMinRests = 5;  // samples
 constexpr int kRestsBefore = 3;
 constexpr double kGap = 1.0;
-constexpr double kLongestHeld = 0.5;  // s; the dropout rule of the settings
+constexpr double kLongestHeld = 0.5;  // s; `dropout_after` of the settings
 constexpr double kPi = 3.1415926535897932384626433832795;
 
 /// The fork points forward and up.
@@ -114,7 +114,7 @@ MapHandMotion map_hand_motion(MapHand hand, MapTail tail, double seconds, double
   const std::size_t arrived = samples.size() - 1;
   const RigidTransform here = samples.back().X;
   const double size = tremor(tail);
-  for (int i = 1, n = std::max(kLeastRests, static_cast<int>(std::lround(seconds / interval))); i <= n; ++i) {
+  for (int i = 1, n = std::max(kMinRests, static_cast<int>(std::lround(seconds / interval))); i <= n; ++i) {
     RigidTransform X = here;
     if (tail == MapTail::lissajous) X = here * lissajous(0.0).inverse() * lissajous(i * interval);
     if (size > 0.0) X.translation() += size * Vector3d(random(), random(), random());
@@ -122,9 +122,9 @@ MapHandMotion map_hand_motion(MapHand hand, MapTail tail, double seconds, double
   }
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     const bool gap = samples[i + 1].t - samples[i].t > kLongestHeld;
-    // The hand's speed drops to zero as the gap begins, and its place changes where it ends.
+    // The speed of the hand drops to zero at the start of the gap, and its position jumps at the end.
     if (gap) motion.watched.push_back({samples[i].t + step, samples[i + 1].t - step});
-    // Velocities come from three samples: a stretch rests where its neighbours do, too.
+    // Velocities come from three samples, so an interval is at rest only if its neighbours are, too.
     const std::size_t last = std::min(i + 2, samples.size() - 1);
     if (gap || i == 0 || !same(samples[i - 1], samples[i]) || !same(samples[i], samples[i + 1]) ||
         !same(samples[i + 1], samples[last])) {
@@ -136,7 +136,7 @@ MapHandMotion map_hand_motion(MapHand hand, MapTail tail, double seconds, double
       motion.watched.push_back({samples[i].t, samples[i + 1].t});
     }
   }
-  // From the second sample at the new place on, three neighbours have the same attitude.
+  // From the second sample at the new pose, three neighbours have the same orientation.
   if (size > 0.0) motion.watched.push_back({samples[arrived + 1].t, samples.back().t, false});
   return motion;
 }

@@ -7,18 +7,18 @@
 
 namespace spring_workbench::benchmark {
 
-/// What the hand does first in a cell of the stability map.
+/// Initial event of the hand in a cell of the stability map.
 enum class MapHand {
   jump,    ///< 1 m from one sample to the next
   flip,    ///< half a turn from one sample to the next
-  dropout  ///< no sample for a second, and then 0.3 m and 0.5 rad further on
+  dropout  ///< no sample for a second, then a displacement of 0.3 m and 0.5 rad
 };
 std::string name_of(MapHand hand);
 
-/// And then.
+/// Motion of the hand after the initial event.
 enum class MapTail {
   rest,
-  nanometre,              ///< trembles by so much at every sample
+  nanometre,              ///< trembles by this amount at every sample
   micrometre,             ///< the same
   tenth_of_a_millimetre,  ///< the same
   millimetre,             ///< the same
@@ -26,19 +26,20 @@ enum class MapTail {
 };
 std::string name_of(MapTail tail);
 
-/// From one end of a step to another [s].
+/// A time interval between ends of steps [s].
 struct WatchedTime {
   double begin = 0.0, end = 0.0;
-  bool rests = true;  ///< for certain; else the hand trembles, and does not turn for certain
+  bool rests = true;  ///< true: the hand rests; false: it trembles but does not turn
 };
 
-/// The samples of a hand, and when it rests or does not turn, in order.
+/// The samples of a hand and, in order, the intervals in which it rests or does not turn.
 struct MapHandMotion {
   std::vector<motion::PoseSample> samples;
   std::vector<WatchedTime> watched;
 };
 
-/// Sampled every `interval` [s], for a simulation in steps of `step` [s]; `seconds` of `tail`.
+/// Makes a motion sampled every `interval` [s], for a simulation with steps of `step` [s]; `seconds`: duration of
+/// `tail`.
 MapHandMotion map_hand_motion(MapHand hand, MapTail tail, double seconds, double interval, double step);
 
 }  // namespace spring_workbench::benchmark

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBound = 1000.0;  // m or rad
 
-/// What goes before the outputs.
+/// Header before the outputs.
 struct Header {
   double wall_seconds;
   long steps_fallback;
@@ -43,7 +43,7 @@ std::string packed(const RunResult& result) {
 }  // namespace
 
 bool wants_another(const Repetition& repetition, int runs, double spent) {
-  return (runs < repetition.runs || spent < repetition.seconds) && spent < kMostSeconds;
+  return (runs < repetition.runs || spent < repetition.seconds) && spent < kMaxSeconds;
 }
 
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,

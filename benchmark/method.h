@@ -9,16 +9,16 @@
 
 namespace spring_workbench::benchmark {
 
-/// What one run of a method gives.
+/// Result of one run of a method.
 struct RunResult {
   std::vector<Vector3d> outputs;  ///< at output_times(scene): A and C centre of mass [m], B (0, 0, twist) [rad]
-  double wall_seconds = std::numeric_limits<double>::infinity();  ///< of the stepping loop alone
-  long steps_fallback = 0;  ///< of ours on samples: steps done by the rule that takes over from the integrator
-  bool given_up = false;    ///< at the time limit
-  bool finite = false;      ///< reached the end, finite and within 1000 m or rad
+  double wall_seconds = std::numeric_limits<double>::infinity();  ///< time of the stepping loop alone
+  long steps_fallback = 0;  ///< for our integrators on samples: steps taken by the fallback rule
+  bool given_up = false;    ///< whether the run exceeded the time limit
+  bool finite = false;      ///< whether it reached the end, finite and within 1000 m or rad
 };
 
-/// A way to simulate the scenes, behind which every peer and every integrator of ours stands.
+/// Interface of a method that simulates the scenes: a peer or one of our integrators.
 class Method {
  public:
   enum class Knob { step, tolerance };
@@ -28,39 +28,40 @@ class Method {
   /// Name in reports, e.g. "bullet_explicit".
   virtual std::string name() const = 0;
 
-  /// Whether it is one of this package's own.
+  /// Whether it is one of this package's integrators.
   virtual bool ours() const { return false; }
 
-  /// What `setting` of run() means: the largest step [s], or a relative tolerance.
+  /// Meaning of the `setting` of run(): the largest step [s] or a relative tolerance.
   virtual Knob knob() const { return Knob::step; }
 
-  /// Whether its own law is that of `Scenario` in this scene. Where it is not (its rotation is parametrised in another
-  /// way), its error is taken against its own solution at a tiny step.
+  /// Whether its force law is that of `Scenario` in this scene. If not (because it parametrises rotation differently),
+  /// its error is measured against its own solution at a tiny step.
   virtual bool has_scene_law(const Scenario&) const { return true; }
 
-  /// Whether its steps may be longer than the interval of the outputs, between which it is then interpolated. Ours end
-  /// at them, as a user's end at samples.
+  /// Whether its steps may be longer than the output interval, with interpolation between them. Our steps end at the
+  /// outputs, as they end at samples for a user.
   virtual bool takes_long_steps() const { return knob() == Knob::step && !ours(); }
 
-  /// One run over the scene. A step divides the output interval, or is longer where takes_long_steps().
+  /// Runs the scene once. The step divides the output interval, or may be longer if takes_long_steps().
   virtual RunResult run(const Scenario& scene, double setting) const = 0;
 };
 
 using MethodPtr = std::unique_ptr<Method>;
 
-/// How often a run is repeated: its wall time is the least of at least `runs` runs that take at least `seconds` in all,
-/// but no more of them than fit into kMostSeconds.
+/// How often a run is repeated: its wall time is the minimum over at least `runs` runs that take at least `seconds` in
+/// total, but no more than fit into kMaxSeconds.
 struct Repetition {
   int runs = 1;
   double seconds = 0.0;  ///< [s]
 };
-constexpr double kMostSeconds = 0.5;
+constexpr double kMaxSeconds = 0.5;
 
-/// Whether another run is due after `runs` that took `spent` [s] in all.
+/// Whether another run is due after `runs` runs that took `spent` [s] in total.
 bool wants_another(const Repetition& repetition, int runs, double spent);
 
-/// run() in a child process: an engine that aborts, hangs or runs wild does not take the report along. Not finite when
-/// the child died or took longer than `time_limit` [s]. The caller must have no other threads.
+/// Calls run() in a child process, so that an engine that aborts, hangs or exhausts memory does not affect the report.
+/// The result is not finite if the child died or took longer than `time_limit` [s]. The caller must have no other
+/// threads.
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
                        double time_limit);
 

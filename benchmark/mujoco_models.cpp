@@ -26,7 +26,7 @@ std::string inertial(double mass, const Vector3d& inertia, const Vector3d& p) {
 
 std::string document(const Scenario& scene, const std::string& disabled, const std::string& world,
                      const std::string& rest) {
-  // B turns about the vertical: its weight does not enter.
+  // Scene B turns about the vertical, so weight has no effect.
   const double gravity = scene.kind == SceneKind::torsion ? 0.0 : scene.gravity;
   return "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" boundmass=\"0\" boundinertia=\"0\"/>"
          "<option gravity=" +

@@ -6,7 +6,8 @@
 
 namespace spring_workbench::benchmark {
 
-/// Mass [kg], inertia [kg m²] or armature of the driven hand: its acceleration is wrong by the object's share of this.
+/// Mass [kg], inertia [kg m²] or armature of the driven hand; the relative error of its acceleration is the ratio of
+/// the object's inertia to this.
 constexpr double kMujocoHandInertia = 1e12;
 
 /// MJCF: the object alone, on a slide (A), a hinge (B) or a free joint (C).

@@ -20,7 +20,7 @@ namespace {
 class MujocoWorld {
  public:
   MujocoWorld(const std::string& xml, const Scenario& scene, double step) {
-    mju_user_warning = [](const char*) {};  // else MuJoCo writes a log file into the working directory
+    mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
     auto files = std::make_unique<mjVFS>();
     mj_defaultVFS(files.get());
     mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(xml.size()));
@@ -41,7 +41,7 @@ class MujocoWorld {
 
   mjModel& model() { return *model_; }
   mjData& data() { return *data_; }
-  /// One step from time `t`, which MuJoCo would otherwise sum up with rounding errors.
+  /// One step from time `t`, which is set because MuJoCo's own sum accumulates rounding errors.
   void step(double t) {
     data_->time = t;
     mj_step(model_, data_);
@@ -90,7 +90,7 @@ void write_start(const Scenario& scene, mjData& data) {
   }
 }
 
-/// The scene's law as a passive force in MuJoCo's callback, so that Runge-Kutta sees it at each of its stages.
+/// The scene's law as a passive force in MuJoCo's callback, so that Runge–Kutta evaluates it at each stage.
 class MujocoForce : public Method {
  public:
   explicit MujocoForce(mjtIntegrator integrator) : integrator_(integrator) {}
@@ -138,9 +138,9 @@ const SingleSpring* MujocoForce::current_ = nullptr;
 RememberedScalar MujocoForce::single_;
 RememberedState MujocoForce::hand_;
 
-/// Joints with stiffness and damping between a hand and the object. The hand is a body that is so heavy that the object
-/// does not move it, set to its exact pose and velocity before each step and driven with its exact acceleration.
-/// Rotation: three hinges, so the law is not the scene's in C.
+/// Joints with stiffness and damping between a hand and the object. The hand is a body too heavy for the object to
+/// move; before each step it is set to its exact pose and velocity and driven with its exact acceleration. Rotation:
+/// three hinges, so the law is not the scene's in C.
 class MujocoJoints : public Method {
  public:
   explicit MujocoJoints(mjtIntegrator integrator) : integrator_(integrator) {}
@@ -227,9 +227,9 @@ class MujocoWeld : public Method {
   static void set_coupling(const Scenario& scene, mjModel& model) {
     const int i = scene.kind == SceneKind::six_dof ? 0 : scene.single_coordinate();
     const int turning = scene.kind == SceneKind::six_dof ? 3 : scene.single_coordinate();
-    // A row's pull is solref times the body's mass. The turning rows hold half the angle.
+    // The force of a row is solref times the body's mass. The rotational rows contain half the angle.
     const double torque_scale = 2.0 * std::sqrt(scene.stiffness[turning] / scene.stiffness[i]);
-    const double impedance = 1e-4;  // MuJoCo's least: the weld is then a spring, and gravity is felt whole
+    const double impedance = 1e-4;  // MuJoCo's minimum: the weld then acts as a spring, with full gravity
     model.eq_solref[0] = -scene.stiffness[i] / scene.mass;
     model.eq_solref[1] = -scene.damping[i] / scene.mass;
     model.eq_solimp[0] = impedance;

@@ -29,7 +29,7 @@ Vector3d position(dBodyID body) { return Eigen::Map<const Vector3d>(dBodyGetPosi
 /// ERP = h k / (h k + c) and CFM = 1 / (h k + c), as target velocity −(ERP/h) x and CFM per axis.
 ///
 /// ODE's linear motor holds the material points half way between the two bodies' centres. The hand is kinematic, so its
-/// body frame may be anywhere: it is put where half way is the tip.
+/// body frame is free: it is placed such that the midpoint is the tip.
 class OdeWorld {
  public:
   explicit OdeWorld(const Scenario& scene)
@@ -76,10 +76,11 @@ class OdeWorld {
     dJointID joint = nullptr;
     void (*set)(dJointID, int, dReal) = nullptr;
     int rows = 0;
-    int coordinate[3] = {0, 0, 0};  ///< of each row, as an index of q
+    int coordinate[3] = {0, 0, 0};  ///< coordinate of each row, as an index of q
   };
 
-  /// A motor with a row for each of the three coordinates from `first` on that has a spring, axes fixed to the hand.
+  /// Adds a motor with a row for each of the three coordinates from `first` on that has a spring, with axes fixed to
+  /// the hand.
   void add_motor(dJointID joint, int first, void (*set)(dJointID, int, dReal), Motor& motor) {
     motor.joint = joint;
     motor.set = set;
@@ -97,8 +98,8 @@ class OdeWorld {
     }
   }
 
-  /// The hand's body at t, with its frame where the tip at `p_WE` is half way to the object's, and the velocity by
-  /// which the hand's point at the tip and its rotation come exactly to where they are at t + h.
+  /// Places the hand's body at time t such that the tip `p_WE` is the midpoint between it and the object, with the
+  /// velocity that moves the hand's point at the tip, and its rotation, exactly to their values at t + h.
   void place_hand(const HandState& now, const HandState& next, const Vector3d& p_WE, double h) {
     const Vector3d p_TE = now.R_WT.transpose() * (p_WE - now.p_WT);
     const Vector3d v_tip = (next.p_WT + next.R_WT * p_TE - p_WE) / h;
@@ -112,7 +113,7 @@ class OdeWorld {
     dBodySetAngularVel(hand_, w.x(), w.y(), w.z());
   }
 
-  /// Spring-damper rows for the deflection `x`, which ODE counts as the hand's motion against the object's.
+  /// Sets the spring–damper rows for the deflection `x`; ODE measures the motion of the hand relative to the object.
   void set_rows(const Motor& motor, const Vector3d& x, double h) const {
     for (int row = 0; row < motor.rows; ++row) {
       const int i = motor.coordinate[row];

@@ -10,15 +10,17 @@ namespace spring_workbench::benchmark {
 /// A general solver of y' = f(t, y) that chooses its steps.
 class OdeSolver {
  public:
-  /// Rates of the state `y` at `t` into `rate`; false where the state is out of the equations' range.
+  /// Computes the rates of the state `y` at `t` into `rate`; returns false if the state is outside the domain of the
+  /// equations.
   using Rates = std::function<bool(double t, const double* y, double* rate)>;
 
   virtual ~OdeSolver() = default;
 
-  /// Begins at `t` with `y`. Tolerances: relative as given, absolute the same times `scale` of each entry.
+  /// Starts at `t` with `y`. `tolerance`: relative tolerance; the absolute one of each entry is `tolerance` times its
+  /// `scale`.
   virtual void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) = 0;
-  /// Goes on to `t` and interpolates; what lies beyond `t` is not looked at where `stop_there`: the rates need not be
-  /// continuous at `t` then. The state is good until the next call. Throws std::runtime_error when it gives up.
+  /// Integrates to `t` and returns the state there, valid until the next call. With `stop_there` the rates are not
+  /// evaluated beyond `t`, so they may be discontinuous there. Throws std::runtime_error if the solver fails.
   virtual const double* advance(double t, bool stop_there) = 0;
 };
 

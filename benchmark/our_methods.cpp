@@ -9,8 +9,8 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-/// A hand that is a function of time, by its pose at the end of every step of `h` [s]. One pose more, right after the
-/// first, so that the velocity there, which is that of a chord, is the function's.
+/// A hand that is a function of time, sampled at the end of every step of `h` [s]. One extra pose right after the first
+/// makes the initial velocity, which is that of a chord, equal to the function's.
 PoseSource poses_of_function(const Scenario& scene, double h) {
   constexpr double soon = 1e-8;  // s
   return [&scene, h](std::size_t i) -> motion::PoseSample {
@@ -27,7 +27,7 @@ class OurMethod : public Method {
 
   std::string name() const override { return integrator_; }
   bool ours() const override { return true; }
-  /// A single spring is the same to all.
+  /// A single spring is the same for all.
   bool has_scene_law(const Scenario& scene) const override { return solves_ || scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {

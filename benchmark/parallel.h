@@ -12,15 +12,15 @@
 
 namespace spring_workbench::benchmark {
 
-/// The processors that this process may run on (`taskset` leaves it some of them).
+/// Number of processors that this process may run on (limited by `taskset`, for example).
 inline std::size_t usable_processors() {
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof(set), &set) != 0) return std::max(1U, std::thread::hardware_concurrency());
   return static_cast<std::size_t>(std::max(1, CPU_COUNT(&set)));
 }
 
-/// `work(i)` for i = 0 … count − 1 on all usable processors; for everything but timing. What `work` throws first
-/// comes out when all have stopped.
+/// Calls `work(i)` for i = 0 … count − 1 on all usable processors; not for timing. Rethrows the first exception after
+/// all threads have stopped.
 template <typename Work>
 void parallel_for(std::size_t count, Work&& work) {
   std::atomic<std::size_t> next{0};

@@ -9,11 +9,11 @@
 
 namespace spring_workbench::benchmark {
 
-/// What a competent programmer writes by hand: semi-implicit Euler and RK4 with the spring as a force.
+/// Hand-written integrators as by a competent programmer: semi-implicit Euler and RK4 with the spring as a force.
 std::vector<MethodPtr> hand_written_peers();
 
-/// SUNDIALS CVODE as a general solver, by tolerance: on the object's pose in world as everybody else keeps it, and on
-/// the deflection, with tolerances that know its size.
+/// SUNDIALS CVODE as a general solver, by tolerance: on the object's pose in world, like the other peers, and on the
+/// deflection, with tolerances scaled to its size.
 std::vector<MethodPtr> cvode_peers();
 
 /// General methods on the library's own equation of motion: RK4, DOP853, Radau IIA, CVODE by BDF and Adams, ARKODE
@@ -34,13 +34,13 @@ std::vector<MethodPtr> ode_peers();
 /// DART: implicit joint springs on a driven hand.
 std::vector<MethodPtr> dart_peers();
 
-/// The peers that were found when this was configured, and those that were not.
+/// The peers that were found at configuration time, and those that were not.
 struct Peers {
   std::vector<MethodPtr> methods;
   std::vector<DragMethod> drags;       ///< the engines on the drag scene
   std::vector<BoxEngine> boxes;        ///< the engines on piles and stacks of boxes
   std::vector<std::string> found;      ///< engine and version
-  std::vector<std::string> not_found;  ///< engine and the Debian package that brings it
+  std::vector<std::string> not_found;  ///< engine and the Debian package that provides it
 };
 Peers all_peers();
 

@@ -8,18 +8,17 @@
 
 namespace spring_workbench::benchmark {
 
-/// A progress bar: redrawn in place on a terminal, elsewhere a line at every twentieth of the way. Safe to use from
-/// several threads.
+/// A progress bar: redrawn in place on a terminal, otherwise a line for every 5 %. Thread-safe.
 class Progress {
  public:
-  /// `total` ≥ 1 units to come.
+  /// `total`: number of units, ≥ 1.
   Progress(std::ostream& out, bool terminal, std::size_t total);
 
-  /// A unit begins; `what` is it.
+  /// Starts a unit called `what`.
   void next(const std::string& what);
-  /// All is done.
+  /// Ends the bar.
   void finish();
-  /// Since this was made [s].
+  /// Time since construction [s].
   double elapsed() const;
 
  private:

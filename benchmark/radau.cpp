@@ -12,19 +12,19 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr int kMostEquations = AdaptiveSolver::most_equations;
-constexpr int kMostIterations = 6;  // of Newton's method
+constexpr int kMaxEquations = AdaptiveSolver::max_equations;
+constexpr int kMaxIterations = 6;  // of Newton's method
 using Complex = std::complex<double>;
 using State = AdaptiveSolver::State;
-using ComplexState = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, kMostEquations, 1>;
-using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostEquations, kMostEquations>;
-using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, kMostEquations, kMostEquations>;
-using Stages = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostEquations, 3>;
+using ComplexState = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, kMaxEquations, 1>;
+using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxEquations, kMaxEquations>;
+using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxEquations, kMaxEquations>;
+using Stages = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxEquations, 3>;
 
 const double kRoot6 = std::sqrt(6.0), kThird = std::cbrt(3.0);
 const Eigen::Vector3d kNodes((4.0 - kRoot6) / 10.0, (4.0 + kRoot6) / 10.0, 1.0);
 const Eigen::Vector3d kError((-13.0 - 7.0 * kRoot6) / 3.0, (-13.0 + 7.0 * kRoot6) / 3.0, -1.0 / 3.0);
-/// Eigenvalues of the inverse of the method's matrix, and what makes it diagonal in blocks.
+/// Eigenvalues of the inverse of the method's matrix, and the transformation that block-diagonalises it.
 const double kReal = 3.0 + kThird * kThird - kThird;
 const Complex kComplex(3.0 + 0.5 * (kThird - kThird * kThird),
                        -0.5 * (std::pow(3.0, 5.0 / 6.0) + std::pow(3.0, 7.0 / 6.0)));
@@ -32,7 +32,7 @@ const Eigen::Matrix3d kT = (Eigen::Matrix3d() << 0.09443876248897524, -0.1412552
                             0.25021312296533332, 0.20412935229379994, -0.38294211275726192, 1.0, 1.0, 0.0)
                                .finished();
 const Eigen::Matrix3d kInverseT = kT.inverse();
-/// From the stages to the coefficients of the collocation polynomial.
+/// Converts the stages to the coefficients of the collocation polynomial.
 const Eigen::Matrix3d kRadauDense =
     (Eigen::Matrix3d() << 13.0 / 3.0 + 7.0 * kRoot6 / 3.0, -23.0 / 3.0 - 22.0 * kRoot6 / 3.0, 10.0 / 3.0 + 5.0 * kRoot6,
      13.0 / 3.0 - 7.0 * kRoot6 / 3.0, -23.0 / 3.0 + 22.0 * kRoot6 / 3.0, 10.0 / 3.0 - 5.0 * kRoot6, 1.0 / 3.0,
@@ -79,13 +79,13 @@ class Radau final : public AdaptiveSolver {
     factored_for_ = h;
   }
 
-  /// Newton's method for the stages less the start; false where it does not converge.
+  /// Newton's method for the stages minus the start; returns false if it does not converge.
   bool solve_stages(double h, Stages& z) {
     const State scale = absolute_ + tolerance_ * y_.cwiseAbs();
     Stages w = z * kInverseT.transpose(), f(size_, 3);
     double last = -1.0;
     State at;
-    for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
+    for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
       for (int i = 0; i < 3; ++i) {
         if (!evaluate(t_ + kNodes[i] * h, y_ + z.col(i), at)) return false;
         f.col(i) = at;
@@ -101,7 +101,7 @@ class Radau final : public AdaptiveSolver {
       for (int i = 0; i < 3; ++i) size += change.col(i).cwiseQuotient(scale).squaredNorm();
       size = std::sqrt(size / (3.0 * size_));
       rate_ = last > 0.0 ? size / last : 0.0;
-      if (last > 0.0 && (rate_ >= 1.0 || std::pow(rate_, kMostIterations - iterations_ + 1) / (1.0 - rate_) * size >
+      if (last > 0.0 && (rate_ >= 1.0 || std::pow(rate_, kMaxIterations - iterations_ + 1) / (1.0 - rate_) * size >
                                              newton_tolerance_)) {
         return false;
       }
@@ -129,7 +129,7 @@ class Radau final : public AdaptiveSolver {
     bool rejected = false;
     while (true) {
       if (!(h_ > 1e-14 * std::max(1.0, std::abs(t_)))) throw std::runtime_error("Radau: the step has become too small");
-      // Equal steps up to a stop, so that what is factored stays good.
+      // Equal steps up to a stop, so that the factorisation stays valid.
       const double h = std::isfinite(longest) ? longest / std::ceil(longest / h_ * (1.0 - 1e-9)) : h_;
       bool fresh = false, converged = false;
       Stages z(size_, 3);
@@ -158,7 +158,7 @@ class Radau final : public AdaptiveSolver {
       double e = norm(error, larger);
       State f;
       if (rejected && e > 1.0 && evaluate(t_, y_ + error, f)) e = norm(real_.solve(State(f + ze)), larger);
-      const double safety = 0.9 * (2.0 * kMostIterations + 1.0) / (2.0 * kMostIterations + iterations_);
+      const double safety = 0.9 * (2.0 * kMaxIterations + 1.0) / (2.0 * kMaxIterations + iterations_);
       const double change = safety * factor_for(h, e);
       if (!(e <= 1.0) || !evaluate(t_ + h, y, f)) {
         h_ = h * (e > 1.0 ? std::clamp(change, 0.2, 0.9) : 0.5);
@@ -188,14 +188,14 @@ class Radau final : public AdaptiveSolver {
   Rates rates_;
   int size_;
   double newton_tolerance_ = 0.0;
-  State from_, f_;  ///< the last step's start; the rates at its end
+  State from_, f_;  ///< start of the last step; rates at its end
   Jacobian jacobian_;
   Eigen::PartialPivLU<Jacobian> real_;
   Eigen::PartialPivLU<ComplexMatrix> complex_;
   double factored_for_ = 0.0, rate_ = 0.0, last_h_ = 0.0, last_error_ = 0.0;
   int iterations_ = 0;
   bool jacobian_known_ = false, factored_ = false, stepped_ = false;
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostEquations, 3> dense_;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxEquations, 3> dense_;
 };
 
 }  // namespace

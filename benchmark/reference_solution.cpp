@@ -34,7 +34,7 @@ ReferenceSolution reference_from_outputs(const Scenario& scene, std::vector<Vect
 
 namespace {
 
-/// From `outputs(tolerance)`, with the distance from the same at ten times the tolerance as its uncertainty.
+/// Reference from `outputs(tolerance)`; its uncertainty is the distance from the outputs at ten times the tolerance.
 template <typename Outputs>
 ReferenceSolution reference_by_tolerance(const Scenario& scene, Outputs&& outputs) {
   ReferenceSolution reference = reference_from_outputs(scene, outputs(kFineTolerance), 0.0);

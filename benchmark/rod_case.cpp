@@ -17,7 +17,7 @@ namespace {
 constexpr double kSampleInterval = 0.02;  // s
 constexpr double kTwoPi = 6.283185307179586476925286766559;
 
-/// The same numbers from the same seed everywhere.
+/// Random numbers that depend only on the seed, on every machine.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -66,7 +66,7 @@ RodCase with_dofs(RodCase one, const std::string& name, const rod::ForkDofs& dof
   return one;
 }
 
-/// What the synthetic and the recorded cases have in common: everything but the hand.
+/// The cases without hands, common to the synthetic and the recorded ones.
 std::vector<RodCase> bodies_and_forks() {
   const RodCase soft = rod("soft_6dof", 0.2, {2000.0, 500.0, 5.0});
   RodCase underdamped = soft;
@@ -89,9 +89,9 @@ std::vector<RodCase> bodies_and_forks() {
           with_dofs(soft, "stretch_only", {true, false, false})};
 }
 
-/// The default fork under a light body and about the heaviest that it bears, and stiffer ones: a light body on one a
-/// thousand times as stiff is off by 60 nm at most, beyond which digits end, a tonne wants one a million times as
-/// stiff.
+/// The default fork with a light body and with about the heaviest one that it can carry, and stiffer forks. A light
+/// body on a fork a thousand times as stiff deflects by at most 60 nm, the limit of the digits; a tonne needs one a
+/// million times as stiff.
 std::vector<RodCase> soft_and_stiff() {
   std::vector<RodCase> cases;
   for (const auto& [name, factor, mass] : {std::tuple{"soft_light", 1.0, 1e-3},

@@ -12,7 +12,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kRecordedUncertainty = 2e-9;  // m: what the recorded trajectories say of themselves
+constexpr double kRecordedUncertainty = 2e-9;  // m, as stated by the recorded trajectories
 
 std::vector<RigidTransform> recorded_poses(const RodCase& one) {
   std::ifstream file(one.recorded);

@@ -7,31 +7,31 @@
 
 namespace spring_workbench::benchmark {
 
-/// What the runs of a rod case are measured against.
+/// The reference against which runs of a rod case are measured.
 struct RodReference {
   std::vector<RigidTransform> X_WO;     ///< at output_times(one)
-  std::vector<RigidTransform> halfway;  ///< at those and half-way between them
-  double largest_deflection = 0.0;      ///< of the centre of mass from where a rigid fork would hold it [m]
+  std::vector<RigidTransform> halfway;  ///< at these times and halfway between them
+  double largest_deflection = 0.0;      ///< of the centre of mass, relative to a rigid fork [m]
   double uncertainty = 0.0;             ///< estimated error of the positions [m]
 };
 
-/// The tolerance of references that have no closed form, relative, and absolute over what a strain is under the weight.
+/// Tolerance of references without a closed form: relative, and absolute relative to the strain under the weight.
 constexpr double kFineTolerance = 1e-12;
 
 /// The Radau IIA method of order five at kFineTolerance on the equation of motion, from sample to sample of the hand,
-/// where its acceleration jumps; its uncertainty is the distance from the same at ten times that. A recorded case: the
-/// trajectory in its file, by another solver, at the outputs, and the former half-way; its uncertainty is the larger of
-/// what the file says of itself and of the distance of the two at the outputs. Throws std::runtime_error when the
-/// method gives up or the file has too few rows.
+/// where its acceleration jumps; its uncertainty is the distance from the solution at ten times that tolerance. For a
+/// recorded case, the trajectory in its file, by another solver, is used at the outputs, and the Radau solution halfway
+/// between; the uncertainty is the larger of the file's own and the distance between the two at the outputs. Throws
+/// std::runtime_error if the method fails or the file has too few rows.
 RodReference rod_reference(const RodCase& one, const std::string& shape);
 
-/// The case with outputs half-way between its own, too.
+/// The case with additional outputs halfway between its own.
 RodCase with_halfway_outputs(RodCase one);
 
 /// Every other pose.
 std::vector<RigidTransform> every_other(const std::vector<RigidTransform>& poses);
 
-/// The same by Radau IIA for every case.
+/// The Radau IIA solution of any case at this tolerance.
 std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& shape, double tolerance);
 
 /// Largest distance of two trajectories in position [m] and angle [rad].

@@ -59,7 +59,7 @@ double farthest_point(const RodCase& one) { return std::sqrt(1.5 * one.inertia.s
 
 namespace {
 
-/// What comes before the poses.
+/// Header before the poses.
 struct Header {
   double wall_seconds;
   long steps, steps_fallback;
@@ -95,7 +95,7 @@ RodRun unpacked(const std::string& data) {
   return run;
 }
 
-/// In a child process, given up after `time_limit` [s].
+/// Runs in a child process, which is killed after `time_limit` [s].
 template <typename Run>
 RodRun run_in_time(double time_limit, Run&& run) {
   if (const auto data = validation::run_in_child([&] { return packed(run()); }, {time_limit})) return unpacked(*data);
@@ -112,7 +112,7 @@ std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<R
   return pairs;
 }
 
-/// Where a method of order one goes with its step, from two runs, the second with half the step.
+/// Extrapolates a first-order method to step zero from two runs, the second with half the step.
 std::vector<RigidTransform> extrapolated(const RodRun& coarse, const RodRun& fine) {
   std::vector<RigidTransform> limit = fine.X_WO;
   for (std::size_t i = 0; i < limit.size(); ++i) {
@@ -123,8 +123,8 @@ std::vector<RigidTransform> extrapolated(const RodRun& coarse, const RodRun& fin
   return limit;
 }
 
-/// What an integrator that does not solve the equation of motion converges to. Its uncertainty is what the last
-/// halving has changed.
+/// The limit of an integrator that does not solve the equation of motion. Its uncertainty is the change by the last
+/// halving.
 RodReference own_limit(const RodCase& one, const std::string& shape, const std::string& integrator,
                        const RodReference& exact) {
   constexpr int kStepsPerOutput = 32;
@@ -139,12 +139,13 @@ RodReference own_limit(const RodCase& one, const std::string& shape, const std::
   return limit;
 }
 
-/// Whether general methods run a pair, too: the default shape, or that of a recording.
+/// Whether a case and shape is also run with general methods: for the default shape, or for that of a recording.
 bool has_peers(const RodCase& one, const std::string& shape) {
   return shape == validation::name_of(rod::ForkSettings().shape) || !one.recorded.empty();
 }
 
-/// One of ours on a case, first by step and then by tolerance, or a general method, setting by setting.
+/// Measures one of our integrators on a case, first by step and then by tolerance, or a general method, setting by
+/// setting.
 class Line {
  public:
   Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& exact,
@@ -161,7 +162,7 @@ class Line {
     for (const double tolerance : plan.peer_tolerances) settings_.push_back({0.0, tolerance});
   }
 
-  /// The next row; false where there is none.
+  /// Measures the next row; returns false if there is none.
   bool advance() {
     if (!rows_.empty() && part_is_over()) {
       const bool by_step = rows_.back().step > 0.0;
@@ -174,7 +175,7 @@ class Line {
   }
   const std::vector<ErrorRow>& rows() const { return rows_; }
 
-  /// The run time of a row that is compared once more, where that is less. Ours to a tolerance are not.
+  /// Measures the run time of a compared row again and keeps the smaller one. Our runs to a tolerance are not compared.
   void time_again(ErrorRow& row) const {
     if (!row.finite || row.error_over_tolerance > 0.0 || !is_compared(row) || !has_peers(case_, shape_)) return;
     const RodRun again = timed({row.step, row.tolerance});
@@ -184,7 +185,7 @@ class Line {
 
  private:
   struct Setting {
-    double step = 0.0, tolerance = 0.0;  ///< one of them, [s]; of ours [m]
+    double step = 0.0, tolerance = 0.0;  ///< one of the two: step [s], or tolerance (ours: [m])
   };
 
   RodRun run(const RodCase& one, const Setting& setting) const {
@@ -200,7 +201,7 @@ class Line {
                        [&] { return is_ours_to_tolerance(setting) ? run(case_, setting) : repeated(); });
   }
 
-  /// Whether nothing finer is worth while, by step or by tolerance.
+  /// Whether no finer step or tolerance is needed.
   bool part_is_over() const {
     const ErrorRow& last = rows_.back();
     if (last.error_over_tolerance > 0.0) return 1e-6 * last.wall_us_per_simulated_second > plan_.longest_run;
@@ -242,8 +243,8 @@ class Line {
     return r;
   }
 
-  /// Of another run, of which nothing is timed: its steps end half-way between the outputs, too. None of ours to a
-  /// tolerance, where the error at the outputs is what was asked for.
+  /// Error of an untimed run whose steps also end halfway between the outputs. Not used for our runs to a tolerance,
+  /// which refers to the error at the outputs.
   PoseDistance distance_between(const Setting& setting) const {
     if (is_ours_to_tolerance(setting)) return {};
     const RodRun between = setting.step > 0.0
@@ -259,9 +260,9 @@ class Line {
   const std::string& shape_;
   std::string method_;
   bool ours_;
-  RodReference reference_;    ///< what it is measured against
-  bool own_ = false;          ///< its own limit
-  double model_error_ = 0.0;  ///< how far that is from the exact one [m]
+  RodReference reference_;    ///< the reference for errors
+  bool own_ = false;          ///< whether that is the method's own limit
+  double model_error_ = 0.0;  ///< distance of that limit from the exact solution [m]
   std::vector<Setting> settings_;
   std::size_t next_ = 0;
   std::vector<ErrorRow> rows_;
@@ -273,7 +274,7 @@ std::size_t unit_count(const RodTablePlan& plan) { return 2 * pairs_of(plan.case
 
 namespace {
 
-/// All methods on a case and shape.
+/// The curves of all methods for a case and shape.
 std::vector<Line> lines_of(const RodTablePlan& plan, const RodCase& one, const std::string& shape) {
   const RodReference reference = rod_reference(one, shape);
   std::vector<Line> lines;

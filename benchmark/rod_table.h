@@ -10,15 +10,15 @@ namespace spring_workbench::benchmark {
 /// What the table of rod cases covers.
 struct RodTablePlan {
   std::vector<RodCase> cases;
-  std::vector<int> steps_per_output;    ///< largest steps of 0.02 s over these; a step also ends at every sample
-  std::vector<double> tolerances;       ///< [m]; with integrators that choose their steps
-  std::vector<double> peer_tolerances;  ///< of general methods
-  double longest_run = 0.025;           ///< as in ErrorTablePlan [s per simulated second]
-  double tolerance_time_limit = 1.0;  ///< a run to a tolerance that takes longer is given up, and so are finer ones [s]
+  std::vector<int> steps_per_output;    ///< largest steps of 0.02 s divided by these; a step also ends at every sample
+  std::vector<double> tolerances;       ///< [m]; for integrators that choose their steps
+  std::vector<double> peer_tolerances;  ///< for general methods
+  double longest_run = 0.025;           ///< see ErrorTablePlan [s per simulated second]
+  double tolerance_time_limit = 1.0;    ///< a longer run to a tolerance is given up, and so are finer ones [s]
   Repetition repetition;
 };
 
-/// The synthetic cases, and the recorded ones where `recorded_folder` has them.
+/// The synthetic cases, and the recorded ones if they are in `recorded_folder`.
 RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
 
 /// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand()
@@ -27,7 +27,7 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
 std::size_t unit_count(const RodTablePlan& plan);
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units);
 
-/// Size of a tolerance's error: the position's, and the angle times the body's radius of gyration [m].
+/// The error that a tolerance refers to, from position and angle times the body's radius of gyration [m].
 double error_as_length(const RodCase& one, double position, double angle);
 
 /// Distance from the centre of mass to the farthest corner of the uniform box that has the case's inertia [m].

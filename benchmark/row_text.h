@@ -11,9 +11,9 @@
 
 namespace spring_workbench::benchmark {
 
-/// Writes and reads rows as text, a line each, fields with tabs between. Every bit of a number comes back. A kind of
-/// row has a function `each_field(row, fields)` beside it, which calls `fields(…)` with all its fields; a string has no
-/// tab or line's end.
+/// Writes and reads rows as lines of tab-separated fields. Numbers are restored bit-identically. Each row type has a
+/// function `each_field(row, fields)`, which calls `fields(…)` with all its fields; strings must not contain tabs or
+/// line breaks.
 class FieldWriter {
  public:
   template <typename... Fields>
@@ -47,7 +47,7 @@ class FieldReader {
   /// `where` names the line in messages.
   FieldReader(std::string line, std::string where) : line_(std::move(line)), where_(std::move(where)) {}
 
-  /// Throws InputError where there are more or fewer fields, or one is not a number that should be.
+  /// Throws InputError if the number of fields is wrong, or if a field that should be a number is not.
   template <typename... Fields>
   void operator()(Fields&... fields) {
     (get(fields), ...);

@@ -6,11 +6,11 @@
 
 namespace spring_workbench::benchmark {
 
-/// The motion of a handle through the poses of a tracker, C¹, as motion::PoseTrack makes it once all of them are known:
-/// the same for every method that knows a hand by poses alone.
+/// The C¹ motion of a handle through the poses of a tracker, as computed by motion::PoseTrack once all of them are
+/// known. It is the same for every method that knows the hand only by poses.
 class SampledHand {
  public:
-  /// `poses` in their order, two at least; the tip's rest frame T lies `length` [m] along the handle's z axis.
+  /// `poses`: at least two, in order; the rest frame T of the tip is `length` [m] along the handle's z axis.
   SampledHand(std::vector<motion::PoseSample> poses, double length);
 
   const std::vector<motion::PoseSample>& poses() const { return poses_; }

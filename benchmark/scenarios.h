@@ -25,32 +25,33 @@ enum class SceneKind {
 /// the inertia tensor. Coordinates `q = (d, φ)`: E has the pose `p = d`, `R = exp(φ)` in T.
 ///
 /// Law: `U = ½ Σ stiffness_i q_i²`, viscous generalised force `−damping_i q̇_i` (on the extension, not on the absolute
-/// velocity), gravity along −z of W. Damping is that of doc/model.md with ζ per family:
-/// `c_stretch = 2 ζ √(m k_stretch)`, `c_bend = 2 ζ √(m k_bend)`, on the slopes `(c_bend / k_bend) k_slope`,
-/// `c_torsion = 2 ζ √(I_a k_torsion)`, `I_a` the moment of inertia about the fork's axis through the grasp.
-/// Start: zero strain and zero strain rate, so the object moves with the hand at t = 0.
+/// velocity), gravity along −z of W. Damping is that of doc/model.md with ζ per DOF: `c_stretch = 2 ζ √(m k_stretch)`,
+/// `c_bend = 2 ζ √(m k_bend)`, on the slopes `(c_bend / k_bend) k_slope`, `c_torsion = 2 ζ √(I_a k_torsion)`, `I_a` the
+/// moment of inertia about the fork's axis through the grasp. Start: zero strain and zero strain rate, so the object
+/// moves with the hand at t = 0.
 struct Scenario {
   std::string name;  ///< "A", "B" or "C"
   SceneKind kind = SceneKind::six_dof;
-  double stiffness_factor = 1.0;        ///< over the scene's nominal stiffness (A: 1e4 N/m, B: 1e4 N·m/rad)
+  double stiffness_factor = 1.0;        ///< relative to the scene's nominal stiffness (A: 1e4 N/m, B: 1e4 N·m/rad)
   double mass = 1.0;                    ///< [kg]
-  Vector3d inertia = Vector3d::Ones();  ///< about and in O, principal [kg m²]
-  Vector3d p_EO = Vector3d::Zero();     ///< centre of mass seen from the tip [m]
-  double length = 0.2;                  ///< L of the fork [m]: where H is; a known hand's motion does not depend on it
-  double damping_ratio = 1.0;           ///< ζ of every family
+  Vector3d inertia = Vector3d::Ones();  ///< principal, about and in O [kg m²]
+  Vector3d p_EO = Vector3d::Zero();     ///< position of the centre of mass relative to the tip [m]
+  double length =
+      0.2;  ///< length L of the fork [m], which determines H; the motion of a known hand does not depend on it
+  double damping_ratio = 1.0;             ///< ζ of every DOF
   Vector6d stiffness = Vector6d::Zero();  ///< of dx, dy, dz [N/m], φx, φy, φz [N·m/rad]; unused ones are 0
   Vector6d damping = Vector6d::Zero();    ///< of dx, dy, dz [N·s/m], φx, φy, φz [N·m·s/rad]
   double gravity = 9.81;                  ///< [m/s²]
   double duration = 4.0;                  ///< [s]
   double output_interval = 0.02;          ///< [s]; outputs at 0, 0.02, …, duration
   double settled_after = 0.1;             ///< errors are measured after this time [s]
-  /// Where the hand is known by the poses of a tracker alone: those, and the motion through them. Null where it is
-  /// known as a function of time.
+  /// The poses of a tracker and the motion through them, if the hand is known only by these; null if it is a function
+  /// of time.
   std::shared_ptr<const SampledHand> samples;
 
   /// The one coordinate of scenes A and B as an index of q: 2 or 5.
   int single_coordinate() const { return kind == SceneKind::stretch ? 2 : 5; }
-  /// Mass or moment of inertia that goes with the one coordinate of scenes A and B [kg, kg m²].
+  /// Mass or moment of inertia for the one coordinate of scenes A and B [kg, kg m²].
   double single_inertia() const { return kind == SceneKind::stretch ? mass : inertia.z(); }
 };
 
@@ -67,8 +68,8 @@ Scenario torsion_scene(double k, double damping_ratio = 1.0);
 /// The box may have another mass.
 Scenario six_dof_scene(double stiffness_factor, double damping_ratio = 1.0, double mass = 5.0);
 
-/// The same scene on a hand that is known by the poses of a tracker alone, one each output interval: everybody gets the
-/// C¹ motion through them, with the velocities that the library makes of them.
+/// The same scene with a hand that is known only by the poses of a tracker, one per output interval. All methods get
+/// the C¹ motion through them, with the velocities computed by the library.
 Scenario with_sampled_hand(Scenario scene);
 
 /// Pose and velocity of the tip's rest frame T.
@@ -85,7 +86,7 @@ struct HandAcceleration {
   Vector3d alpha_WT_T = Vector3d::Zero();  ///< angular, in T's axes [rad/s²]
 };
 
-/// All of T's motion at one moment.
+/// The motion of T at one time.
 struct HandMotion {
   HandState state;
   HandAcceleration acceleration;
@@ -104,8 +105,8 @@ struct ScalarMotion {
 };
 ScalarMotion scalar_hand(const Scenario& scene, double t);
 
-/// What `of` says of a scene's hand, asked for only where the time [s] is another than the last one: several stages of
-/// a step, and all the differences of a Jacobian, share theirs.
+/// Caches the result of `of` for a scene's hand at the last time [s], because several stages of a step, and all
+/// differences of a Jacobian, use the same time.
 template <typename Motion, Motion (*of)(const Scenario&, double)>
 class Remembered {
  public:
@@ -132,11 +133,11 @@ std::vector<double> output_times(const Scenario& scene);
 /// Number of equal steps in an output interval for a largest step of `step` [s].
 int steps_per_output(const Scenario& scene, double step);
 
-/// Length of the steps of a run in steps of at most `step` [s]: it divides the output interval, or is `step` where that
-/// is longer.
+/// Step length of a run with steps of at most `step` [s]: a divisor of the output interval, or `step` if that is
+/// longer.
 double step_length(const Scenario& scene, double step);
 
-/// What errors are relative to: the hand's amplitude, 0.1 m, 0.8 rad or 0.15 m.
+/// The amplitude of the hand, to which errors are relative: 0.1 m, 0.8 rad or 0.15 m.
 double hand_amplitude(const Scenario& scene);
 
 }  // namespace spring_workbench::benchmark

@@ -70,7 +70,7 @@ class BushingDeflection : public SceneProblem {
     const Vector3d arm = scene_.p_EO.cwiseAbs2();
     Vector6d inertia;
     inertia << Vector3d::Constant(scene_.mass), scene_.inertia + scene_.mass * (Vector3d::Constant(arm.sum()) - arm);
-    // Of a rate: what makes the deflection wrong by its own share, each coordinate swinging by itself.
+    // Scale of a rate: an error that causes the same relative error of the deflection, for uncoupled oscillations.
     const Vector6d omega = scene_.stiffness.cwiseQuotient(inertia).cwiseSqrt();
     Eigen::Map<Vector6d>{scale + 6} = omega.cwiseMax(10.0).cwiseProduct(deflection);
   }

@@ -13,13 +13,13 @@ class SceneProblem {
 
   virtual int size() const = 0;
 
-  /// State at t = 0 into `y`.
+  /// Writes the state at t = 0 to `y`.
   virtual void start(double* y) const = 0;
 
-  /// Scale of the absolute tolerance of each entry into `scale`.
+  /// Writes the scale of the absolute tolerance of each entry to `scale`.
   virtual void tolerance_scale(double* scale) const = 0;
 
-  /// Rates into `rate`; false where the state is out of the equations' range.
+  /// Writes the rates to `rate`; returns false if the state is outside the domain of the equations.
   virtual bool rates(double t, const double* y, double* rate) const = 0;
 
   /// The output of the scene, as in RunResult.
@@ -28,7 +28,7 @@ class SceneProblem {
 
 enum class SceneCoordinates {
   deflection,  ///< (q, q̇) of the bushing: tolerances act on the deflection
-  world        ///< pose and velocity of the object in world, as a user keeps them: tolerances act on the position
+  world        ///< pose and velocity of the object in world: tolerances act on the position
 };
 
 std::unique_ptr<SceneProblem> make_scene_problem(const Scenario& scene, SceneCoordinates coordinates);

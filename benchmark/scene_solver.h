@@ -9,17 +9,17 @@
 
 namespace spring_workbench::benchmark {
 
-/// Makes a general solver of so many equations.
+/// Makes a general solver for `size` equations.
 using MakeSolver = std::function<std::unique_ptr<OdeSolver>(int size, OdeSolver::Rates rates)>;
 
-/// A general solver on a scene.
+/// A general solver applied to a scene.
 class SceneSolver {
  public:
   SceneSolver(const Scenario& scene, SceneCoordinates coordinates, const MakeSolver& make);
 
-  /// Outputs at output_times(scene), from the scene's start. Relative tolerance as given; absolute: the same times 1 in
-  /// world coordinates, and times the static deflection's scale in the others.
-  /// Throws std::runtime_error when the solver gives up.
+  /// Outputs at output_times(scene), from the scene's start. `tolerance` is the relative tolerance; the absolute one is
+  /// the same times 1 in world coordinates, or times the scale of the static deflection in the others. Throws
+  /// std::runtime_error if the solver fails.
   std::vector<Vector3d> solve(double tolerance);
 
  private:

@@ -23,7 +23,7 @@ std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, OdeSol
   return make_cvode(name == "solver_cvode_adams" ? CvodeFormula::adams : CvodeFormula::bdf, size, std::move(rates));
 }
 
-/// What a run needs of the library: the rates of the strain and its rate, and the object.
+/// Interface to the library: rates of the strain and its rate, and the pose of the object.
 class Equations {
  public:
   Equations(const RodCase& one, const std::string& shape, const motion::FrameMotion* function)
@@ -32,8 +32,8 @@ class Equations {
   }
 
   const dynamics::HeldBody& body() const { return body_; }
-  /// The hand from the sample at or before `t` to the next.
-  void use_piece(double t) {
+  /// Uses the hand's segment from the sample at or before `t` to the next.
+  void use_segment(double t) {
     if (!samples_ || hand_ == &samples_->handle(t)) return;
     hand_ = &samples_->handle(t);
     known_.reset();
@@ -55,7 +55,7 @@ class Equations {
   }
 
  private:
-  /// The hand at `t`: found once for all that is asked of the same moment.
+  /// The hand at `t`, cached for repeated calls with the same time.
   const dynamics::HandleForcing& forcing(double t) const {
     if (!known_ || known_->t != t) known_ = body_.forcing(*hand_, t);
     return *known_;
@@ -67,8 +67,8 @@ class Equations {
   mutable std::optional<dynamics::HandleForcing> known_;
 };
 
-/// The scale of the absolute tolerances: of the strain roughly the static one; rates may be wrong by as much as makes
-/// the strains wrong by their own share, each swinging by itself: only where the object is is asked for.
+/// Scale of the absolute tolerances. For strains roughly the static strain; for rates, the error that causes the same
+/// relative error of the strains for uncoupled oscillations, since only the pose of the object matters.
 std::vector<double> scale_of(const RodCase& one, const dynamics::HeldBody& body) {
   const int n = body.size();
   const rod::StrainMatrix mass = body.mass_matrix(0.0, body.zero_state().q);
@@ -81,8 +81,8 @@ std::vector<double> scale_of(const RodCase& one, const dynamics::HeldBody& body)
   return scale;
 }
 
-/// The classical method in steps of `step` [s], to a stop in equal ones that are no longer; between their ends the
-/// cubic through state and rates at both.
+/// The classical method with equal steps of at most `step` [s] up to a stop; cubic Hermite interpolation between their
+/// ends.
 class RungeKutta4 final : public OdeSolver {
  public:
   RungeKutta4(int size, double step, Rates rates) : rates_(std::move(rates)), step_(step), y_(size) {}
@@ -93,7 +93,7 @@ class RungeKutta4 final : public OdeSolver {
     rate_ = stage(t_, y_);
   }
   const double* advance(double t, bool stop_there) override {
-    if (stop_there) rate_ = stage(t_, y_);  // they may have jumped
+    if (stop_there) rate_ = stage(t_, y_);  // the rates may have jumped
     while (t_ < t - kSameTime) step(stop_there ? (t - t_) / std::ceil((t - t_) / step_ * (1.0 - 1e-9)) : step_);
     if (t_ < t + kSameTime) return y_.data();
     const double h = t_ - before_, u = (t - before_) / h, v = 1.0 - u;
@@ -140,32 +140,32 @@ RodRun run_solver(const RodCase& one, const std::string& shape, const std::strin
   using Clock = std::chrono::steady_clock;
   Equations equations(one, shape, function);
   const int size = 2 * equations.body().size();
-  const bool pieces = function == nullptr, every_piece = pieces && !is_cvode(name);
+  const bool by_segments = function == nullptr, every_segment = by_segments && !is_cvode(name);
   OdeSolver::Rates rates = [&equations](double t, const double* y, double* rate) {
     return equations.rates(t, y, rate);
   };
-  if (pieces && !every_piece) {
+  if (by_segments && !every_segment) {
     rates = [&equations](double t, const double* y, double* rate) {
-      equations.use_piece(t);
+      equations.use_segment(t);
       return equations.rates(t, y, rate);
     };
   }
   const std::unique_ptr<OdeSolver> solver =
       takes_step(name) ? std::make_unique<RungeKutta4>(size, setting, rates) : make_solver(name, size, rates);
   const std::vector<double> start(static_cast<std::size_t>(size), 0.0), scale = scale_of(one, equations.body());
-  const std::vector<double> times = output_times(one), ends = every_piece ? step_ends(one) : times;
+  const std::vector<double> times = output_times(one), ends = every_segment ? step_ends(one) : times;
   RodRun run;
   run.X_WO.reserve(times.size());
-  equations.use_piece(0.0);
+  equations.use_segment(0.0);
   const Clock::time_point begun = Clock::now();
   try {
     run.X_WO.push_back(equations.object(0.0, start.data()));
     solver->begin(0.0, start, setting, scale);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      if (pieces) equations.use_piece(0.5 * (ends[i] + ends[i + 1]));
-      const double* y = solver->advance(ends[i + 1], every_piece);
+      if (by_segments) equations.use_segment(0.5 * (ends[i] + ends[i + 1]));
+      const double* y = solver->advance(ends[i + 1], every_segment);
       if (ends[i + 1] < times[run.X_WO.size()] - kSameTime) continue;
-      if (pieces) equations.use_piece(ends[i + 1]);
+      if (by_segments) equations.use_segment(ends[i + 1]);
       run.X_WO.push_back(equations.object(ends[i + 1], y));
       const RigidTransform& X = run.X_WO.back();
       if (!X.matrix().allFinite() || X.translation().norm() > kFarthest) return run;

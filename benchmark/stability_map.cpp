@@ -17,12 +17,12 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kFarthest = 100.0;        // m from the hand,
-constexpr double kFlight = 400.0;          // m/s; beside what an object on no spring flies that half a turn has thrown
-constexpr double kFall = 0.5 * 9.81;       // m/s²; and falls
+constexpr double kFarthest = 100.0;   // m from the hand,
+constexpr double kFlight = 400.0;     // m/s, in addition, for an object without spring that was thrown by half a turn
+constexpr double kFall = 0.5 * 9.81;  // m/s², for its fall
 constexpr double kTrackerInterval = 0.02;  // s
 constexpr double kWatchedSteps = 20.0;
-constexpr std::size_t kFailuresKept = 12;  // of an integrator and a shape
+constexpr std::size_t kFailuresKept = 12;  // per integrator and shape
 
 RodCase case_of(const StabilityCell& cell) {
   RodCase one;
@@ -32,11 +32,11 @@ RodCase case_of(const StabilityCell& cell) {
   const double factor = cell.stiffness_factor, zeta = cell.damping_ratio;
   one.fork.stiffness = {2000.0 * factor, 500.0 * factor, 5.0 * factor};
   one.fork.damping_ratio = {zeta, zeta, zeta};
-  one.fork.dofs = cell.families;
+  one.fork.dofs = cell.dofs;
   return one;
 }
 
-/// Advances the simulation and looks at what comes out.
+/// Advances the simulation and evaluates the result.
 class CellRun {
  public:
   CellRun(const RodCase& one, const std::string& integrator, const std::string& shape, double step,
@@ -52,7 +52,7 @@ class CellRun {
     for (const motion::PoseSample& sample : hand) simulation_.push_stylus(sample);
   }
 
-  /// False when there is no point in going on.
+  /// Returns false if there is no point in continuing.
   bool advance(double t) {
     const simulation::AdvanceReport report = simulation_.advance(t);
     outcome_.refused += report.steps_rejected;
@@ -66,14 +66,14 @@ class CellRun {
     const Twist& V = object.V_WO_W;
     outcome_.finite = object.X_WO.matrix().allFinite() && V.linear.allFinite() && V.angular.allFinite();
     const double distance = (object.X_WO.translation() - simulation_.fork().X_WH.translation()).norm();
-    // A hand that goes on turning throws an object on no spring ever faster: no bound.
+    // A hand that keeps turning throws an object without spring ever faster, so there is no bound.
     outcome_.bounded = outcome_.finite && (hand_goes_on_ || distance < kFarthest + t * (kFlight + kFall * t));
     return outcome_.bounded && !left_;
   }
 
   dynamics::Integrator::Energy energy() const { return energy_; }
   StabilityOutcome& outcome() { return outcome_; }
-  /// Where the last advance() has come to.
+  /// State after the last advance().
   EnergyLook look() const {
     const tools::ToolState fork = simulation_.fork();
     const bodies::BodyState& object = simulation_.objects()[0];
@@ -87,15 +87,14 @@ class CellRun {
   simulation::Simulation simulation_;
   bool explicit_;
   dynamics::Integrator::Energy energy_;
-  Vector3d p_HO_;  ///< the object's centre of mass in the handle's frame, were the fork rigid [m]
+  Vector3d p_HO_;  ///< centre of mass in the handle's frame for a rigid fork [m]
   bool hand_goes_on_;
-  bool left_ =
-      false;  ///< an explicit method has left what a rod can have: what another rule makes of it is not its own
+  bool left_ = false;  ///< an explicit method has left the rod's range: results of the fallback rule are not its own
   StabilityOutcome outcome_;
   double estimated_ = 0.0;  ///< error in energy of the last advance() [J]
 };
 
-std::string families_name(const rod::ForkDofs& dofs) {
+std::string dofs_name(const rod::ForkDofs& dofs) {
   std::string name;
   if (dofs.stretch) name += 's';
   if (dofs.bend) name += 'b';
@@ -176,7 +175,7 @@ StabilityMap map_of(const std::vector<StabilityRun>& cells) {
 
 namespace {
 
-/// Runs the cells of a stiffness and a mass.
+/// Runs the cells with one stiffness and mass.
 StabilityMap map_of_cells(const StabilityPlan& plan, const std::string& integrator, const std::string& shape,
                           double factor, double mass) {
   std::vector<StabilityRun> cells;
@@ -206,7 +205,7 @@ StabilityPlan stability_plan(bool quick) {
   plan.damping_ratios = quick ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.001, 0.01, 0.05, 1.0, 10.0};
   if (quick) plan.cells = plan.cells_of_others = 120;
   if (quick) plan.seconds = 0.2;
-  for (int i = 0; i < 8; ++i) plan.families.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
+  for (int i = 0; i < 8; ++i) plan.dofs.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
   plan.hands = {MapHand::jump, MapHand::flip, MapHand::dropout};
   plan.tails = {MapTail::rest,       MapTail::nanometre, MapTail::micrometre, MapTail::tenth_of_a_millimetre,
                 MapTail::millimetre, MapTail::lissajous};
@@ -224,7 +223,7 @@ std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string
     cell.mass = any(plan.masses);
     cell.step = any(plan.steps);
     cell.damping_ratio = any(plan.damping_ratios);
-    cell.families = any(plan.families);
+    cell.dofs = any(plan.dofs);
     cell.hand = any(plan.hands);
     cell.tail = any(plan.tails);
     cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
@@ -238,8 +237,8 @@ std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string
 
 namespace {
 
-/// Times to look at between `begin` and `end` [s], both included: of a hand at rest every step at first, and then every
-/// 20 ms, since what has grown stays above the lowest; else every end of a step.
+/// Times for evaluation between `begin` and `end` [s], inclusive. For a hand at rest, first every step, then every 20
+/// ms, since grown energy stays above the minimum; otherwise every end of a step.
 std::vector<double> looks_of(const MapHandMotion& hand, double begin, double end, double step, bool rests) {
   std::vector<double> looks;
   if (rests) {
@@ -357,7 +356,7 @@ std::string failures_csv(const StabilityMap& map) {
          "energy_judged,energy_growth,energy_estimated,steps_refused,steps,stops,steps_fallback,processor_time\n";
   for (const StabilityRun& f : map.failures) {
     out << f.integrator << ',' << f.shape << ',' << f.cell.stiffness_factor << ',' << f.cell.mass << ',' << f.cell.step
-        << ',' << f.cell.damping_ratio << ',' << families_name(f.cell.families) << ',' << name_of(f.cell.hand) << ','
+        << ',' << f.cell.damping_ratio << ',' << dofs_name(f.cell.dofs) << ',' << name_of(f.cell.hand) << ','
         << name_of(f.cell.tail) << ',' << f.cell.seconds << ',' << f.outcome.finite << ',' << f.outcome.bounded << ','
         << f.outcome.energy_judged << ',' << f.outcome.energy_growth << ',' << f.outcome.energy_estimated << ','
         << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.stops << ',' << f.outcome.fallback << ','

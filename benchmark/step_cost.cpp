@@ -55,10 +55,10 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
   const dynamics::StrainState full = body.full_state(h, moving);
   const dynamics::HandleForcing forcing = body.forcing(hand[1], h);
 
-  volatile double sink = 0.0;  // so that nothing is left out
+  volatile double sink = 0.0;  // prevents the compiler from removing the computation
   rod::TipKinematics tip;
   const auto note = [&](const char* part, auto&& call) {
-    costs.push_back({shape, body.size(), part, least_nanoseconds(calls, call)});
+    costs.push_back({shape, body.size(), part, min_nanoseconds(calls, call)});
   };
   note("hand at one moment", [&](int i) { sink = body.forcing(hand[1], h * (1.0 + 0.001 * i)).angular_velocity[0]; });
   note("tip", [&](int) {
@@ -81,7 +81,7 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
   });
 }
 
-/// Simulation on the default fork with the hand of a tracker all known, at the end of the first 20 ms of the grasp or
+/// A simulation with the default fork and all samples of a tracked hand pushed, 20 ms after the grasp (`grasped`) or
 /// before it.
 simulation::Simulation simulation_of(const RodCase& one, bool grasped) {
   simulation::Simulation simulation(rod_scene(one), rod_settings(one, "linear", "exponential", interval));
@@ -90,7 +90,7 @@ simulation::Simulation simulation_of(const RodCase& one, bool grasped) {
   return simulation;
 }
 
-/// Mean cost [ns] of 20 ms of Simulation after a `change` before each of them, the least of some runs.
+/// Mean cost [ns] of 20 ms of Simulation after a `change`, minimum over some runs.
 template <typename Change>
 double advance_cost(const RodCase& one, Change&& change) {
   constexpr int runs = 5;
@@ -107,7 +107,7 @@ double advance_cost(const RodCase& one, Change&& change) {
   return best;
 }
 
-/// The same for the 20 ms that begin with a grasp.
+/// The same for the first 20 ms after a grasp.
 double grasp_cost(const RodCase& one) {
   double best = std::numeric_limits<double>::infinity();
   for (int run = 0; run < calls; ++run) {
@@ -119,7 +119,7 @@ double grasp_cost(const RodCase& one) {
   return best;
 }
 
-/// What a user pays who runs Simulation, contact off, and changes something.
+/// Cost of changes for a user of Simulation without contact.
 void add_advances(std::vector<StepCost>& costs) {
   RodCase one;
   one.name = "default fork";
@@ -152,7 +152,7 @@ std::vector<StepCost> step_costs() {
   to.X.linear() = b.R_WT;
   to.X.translation() = b.p_WT;
   volatile double sink = 0.0;
-  costs.push_back({"", 0, "hand between two samples", least_nanoseconds(calls, [&](int) {
+  costs.push_back({"", 0, "hand between two samples", min_nanoseconds(calls, [&](int) {
                      sink = motion::MotionSegment(from, a.v_WT_W, a.w_WT_T, to, b.v_WT_W, b.w_WT_T).end();
                    })});
   for (const std::string& shape : validation::names<rod::ShapeKind>()) {

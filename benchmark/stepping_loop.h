@@ -8,8 +8,8 @@
 
 namespace spring_workbench::benchmark {
 
-/// Of the polynomial of degree five through the values at six ends of steps of length 1, `at` from the first of them
-/// that `values` has: what a user makes of positions that are further apart than wanted.
+/// Interpolates between the ends of steps by the polynomial of degree five through six of the `values`, which are one
+/// step apart; `at`: position in steps from the first value.
 inline Vector3d between_steps(const std::vector<Vector3d>& values, double at) {
   constexpr int points = 6;
   const int count = static_cast<int>(values.size()), used = std::min(points, count);
@@ -25,9 +25,9 @@ inline Vector3d between_steps(const std::vector<Vector3d>& values, double at) {
   return sum;
 }
 
-/// The timed loop of a method with fixed steps: calls `advance(t, h)` for each step from t to t + h, all of the length
-/// step_length(), and `output(t)` at the output times, or, where steps are longer than their interval, at the ends of
-/// steps, between which it interpolates. Stops at the first output that is not bounded.
+/// The timed loop of a method with fixed steps of length step_length(): calls `advance(t, h)` for each step from t to t
+/// + h, and `output(t)` at the output times or, if steps are longer than the output interval, at the ends of steps, and
+/// interpolates between these. Stops at the first output that is not bounded.
 template <typename Advance, typename Output>
 RunResult stepping_loop(const Scenario& scene, double step, Advance&& advance, Output&& output) {
   const std::vector<double> times = output_times(scene);

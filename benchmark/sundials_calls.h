@@ -9,15 +9,16 @@
 
 namespace spring_workbench::benchmark {
 
-// What CVODE and ARKODE are called with.
+// Callbacks and error handling for CVODE and ARKODE.
 
-/// `rates` is an OdeSolver::Rates. 1 where it has no rates at `y`: the solver tries a smaller step.
+/// `rates`: pointer to an OdeSolver::Rates. Returns 1 if there are no rates at `y`; the solver then tries a smaller
+/// step.
 inline int right_side(realtype t, N_Vector y, N_Vector rate, void* rates) {
   const bool fine = (*static_cast<const OdeSolver::Rates*>(rates))(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
   return fine ? 0 : 1;
 }
 
-/// Throws std::runtime_error where `status` says that `call` failed.
+/// Throws std::runtime_error if `status` indicates that `call` failed.
 inline void require(int status, const char* call) {
   if (status < 0) throw std::runtime_error(std::string(call) + " failed with status " + std::to_string(status));
 }

@@ -11,13 +11,13 @@
 
 namespace spring_workbench::benchmark {
 
-/// One of `count` parts that a report's work is dealt to.
+/// One of `count` parts into which the work of a report is divided.
 struct Shard {
-  std::size_t index = 1;  ///< from 1 on
+  std::size_t index = 1;  ///< starting at 1
   std::size_t count = 1;
 };
 
-/// What came out of a unit of work: a line for each row, what it took, and where it was read, for messages.
+/// Results of a unit of work: a line for each row, its processor time, and its origin for messages.
 struct UnitRows {
   std::vector<std::string> lines;
   double processor = 0.0;  ///< [s]
@@ -25,31 +25,31 @@ struct UnitRows {
 };
 using RowsByUnit = std::map<std::string, UnitRows>;
 
-/// What a unit of work took.
+/// Processor time of a unit of work.
 struct UnitTime {
   std::string part, unit;
   double processor = 0.0;  ///< [s]
 };
 
-/// Processor time that this process, its threads and those of its children that have ended have used so far [s].
+/// Processor time used so far by this process and its terminated children [s].
 double processor_time_of_all();
 
-/// The units of work that a report is made of. Each has a name that no other has, and a number in its part of the
-/// report: those of the same number are one shard's. They are all measured here, or those of one shard are, or they
-/// have been measured by shards.
+/// The units of work of a report. Each has a unique name and a number in its part of the report; units with the same
+/// number belong to the same shard. They are measured here (all of them, or those of one shard), or have been measured
+/// by shards.
 class Units {
  public:
-  /// Every N-th number is this shard's or, if there is a folder `queue`, what no other shard that has the same folder
-  /// took before: a file in it for each number. The folder must be empty when the first of them begins.
+  /// This shard takes every N-th number or, if there is a folder `queue`, the numbers that no other shard with the same
+  /// folder has taken (there is a file in it for each number). The folder must be empty when the first shard starts.
   Units(Progress& progress, Shard shard, std::string queue = {})
       : progress_(progress), shard_(shard), queue_(std::move(queue)) {}
   Units(Progress& progress, RowsByUnit measured) : progress_(progress), merging_(true), rows_(std::move(measured)) {}
 
-  /// What follows is of the part of this name, and numbered anew.
+  /// Starts the part of this name, with new numbering.
   void begin(const std::string& part);
 
-  /// The rows of a unit: those of `measure()`, those that a shard has measured, or none where it is another shard's.
-  /// Throws InputError where no shard has it, or its rows are none of these.
+  /// The rows of a unit: those of `measure()`, those that a shard has measured, or none if it belongs to another shard.
+  /// Throws InputError if no shard has measured it, or if its rows are not of this type.
   template <typename Row, typename Measure>
   std::vector<Row> rows(std::size_t number, const std::string& name, Measure&& measure) {
     std::vector<Row> rows;
@@ -69,9 +69,9 @@ class Units {
 
   Progress& progress() { return progress_; }
 
-  /// What has been measured here; when merging what nobody has asked for.
+  /// The results measured here; when merging, those that have not been requested.
   const RowsByUnit& kept() const { return rows_; }
-  /// Of what has been measured here or, when merging, asked for.
+  /// Times of the units measured here or, when merging, requested.
   const std::vector<UnitTime>& times() const { return times_; }
 
  private:
@@ -90,7 +90,7 @@ class Units {
   std::string queue_;
   bool merging_ = false;
   std::string part_;
-  std::map<std::size_t, bool> mine_;  ///< numbers of the part that have been asked for
+  std::map<std::size_t, bool> mine_;  ///< for requested numbers of the part, whether they are this shard's
   RowsByUnit rows_;
   std::vector<UnitTime> times_;
 };

@@ -17,7 +17,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double kEvery50Hz = 0.02;
-constexpr double kLargestShare = 0.1;  // of the deflection; with a coarser target nothing is said of the spring
+constexpr double kLargestShare = 0.1;  // fraction of the deflection; a coarser target says nothing about the spring
 constexpr const char* kOurs = "exponential";
 const ErrorMeasure kOfAmplitude = &ErrorRow::error_over_hand_amplitude;
 const ErrorMeasure kOfDeflection = &ErrorRow::error_over_largest_deflection;
@@ -34,7 +34,7 @@ Verdict judged(std::string claim, std::string target, std::string measured, bool
           held ? Verdict::Result::pass : Verdict::Result::fail};
 }
 
-/// An integrator of ours whose limit is not the equation of motion.
+/// Whether the limit of one of our integrators is not the equation of motion.
 bool has_own_law(const std::string& integrator) { return !solves_the_equation_of_motion(integrator); }
 bool is_cvode(const std::string& method) { return method.find("cvode") != std::string::npos; }
 bool is_solver(const std::string& method) { return method.rfind("hand_", 0) == 0 || method.rfind("solver_", 0) == 0; }
@@ -56,7 +56,7 @@ std::string named(const SceneRows& scene) {
   return (scene.rows[0].scene.size() == 1 ? "Scene " : "Rod ") + title_of(scene.rows[0]);
 }
 
-/// Ours against the best of some peers: their run time over ours is to be at least `least`, or, where that is 1, more.
+/// Compares ours with the best of some peers: the ratio of run times must be at least `least`, or above 1 if that is 1.
 Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::string& whom,
                 const std::function<bool(const std::string&)>& wanted, double least) {
   const bool every = least == 1.0;
@@ -69,7 +69,7 @@ Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::st
   } else if (share > kLargestShare) {
     verdict.measured =
         "not judged: that is " + text(100.0 * share) + " % of the largest deflection; " + text_of(pairs[0], target);
-  } else if (target.error < least_of_reference * scene.uncertainty(target)) {
+  } else if (target.error < min_of_reference * scene.uncertainty(target)) {
     verdict.measured =
         "not judged: the reference is known to " + text(scene.uncertainty(target)) + "; " + text_of(pairs[0], target);
   } else if (!pairs[0].ratio()) {
@@ -82,8 +82,8 @@ Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::st
   return verdict;
 }
 
-/// Ours against all at errors from a tenth of the largest deflection to what the samples leave unknown, or, where that
-/// was not found, to a thousandth; two in a decade. Where the samples leave more than a tenth unknown, at a tenth.
+/// Compares ours with all at errors from a tenth of the largest deflection down to the uncertainty left by the samples
+/// (if unknown, a thousandth), two per decade. If the samples leave more than a tenth, only at a tenth.
 Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
   const ErrorRow& first = scene.rows[0];
   const double unknown = first.hand_error > 0.0 ? first.hand_error / first.largest_deflection : 1e-3;
@@ -117,7 +117,7 @@ Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
   return verdict;
 }
 
-/// The stiffnesses of a scene that were run, which are few with --quick.
+/// The stiffnesses of a scene that were run (few with --quick).
 std::string text_of(const std::set<double>& factors) {
   std::string list;
   for (const double factor : factors) list += (list.empty() ? "stiffness × " : ", ") + text(factor);
@@ -169,7 +169,7 @@ void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {
   }
 }
 
-/// A step of MuJoCo's RK4 in scene C [µs]: by it, machines are compared. Infinite where it was not measured.
+/// Time of a step of MuJoCo's RK4 in scene C [µs], for comparing machines. Infinite if not measured.
 double mujoco_step(const Measurements& m) {
   double least = std::numeric_limits<double>::infinity();
   for (const ErrorRow& row : m.scenes) {
@@ -180,7 +180,7 @@ double mujoco_step(const Measurements& m) {
   return least;
 }
 
-/// The feasibility sketch's times, from another machine, by what MuJoCo's step took there and takes here.
+/// Times of the feasibility sketch, from another machine, scaled by the times of MuJoCo's step there and here.
 void sketch(const Measurements& m, std::vector<Verdict>& out) {
   constexpr double there = 3.164;  // [µs]
   const double here = mujoco_step(m), slower = std::isfinite(here) ? here / there : 1.0;
@@ -198,7 +198,7 @@ void sketch(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// Rods on a tracked hand beside general methods.
+/// Compares rods on a tracked hand with general methods.
 void rods_against_peers(const Measurements& m, std::vector<Verdict>& out) {
   std::vector<ErrorRow> rows;
   std::copy_if(m.rods.begin(), m.rods.end(), std::back_inserter(rows),
@@ -212,7 +212,7 @@ void rods_against_peers(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// One step per sample: what was asked first, and the 2e-7 m that were asked of two rods since.
+/// One step per sample: the original requirement, and the later one of 2e-7 m for two rods.
 void rods(const Measurements& m, std::vector<Verdict>& out) {
   for (const ErrorRow& row : m.rods) {
     if (row.method != kOurs || row.shape != "linear" || std::abs(row.step - kEvery50Hz) > 1e-9) continue;
@@ -275,7 +275,7 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// How far an integrator's own limit is from the exact motion.
+/// Distance of an integrator's own limit from the exact motion.
 void model_errors(const Measurements& m, std::vector<Verdict>& out) {
   std::map<std::string, std::vector<const ErrorRow*>> rows_of;
   for (const ErrorRow& row : m.rods) {
@@ -333,7 +333,7 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// What a user waits for who changes something: beside a step, nothing is asked.
+/// Cost of changes at run time, for information only.
 void cost_of_a_change(const Measurements& m, std::vector<Verdict>& out) {
   std::string figure;
   for (const StepCost& cost : m.step_costs) {
@@ -359,7 +359,7 @@ std::set<std::string> scenes_of(const std::vector<WorldStepRow>& rows) {
   return scenes;
 }
 
-/// Of the motions in contact: the error at 2 ms, and how it falls with the step from there on.
+/// Motions in contact: the error at 2 ms, and its convergence order below.
 void orders(const Measurements& m, const std::string& scene, std::vector<Verdict>& out) {
   const WorldStepRow *longest = nullptr, *shortest = nullptr;
   for (const WorldStepRow& row : m.contact.world_steps) {

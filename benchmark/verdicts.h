@@ -14,7 +14,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// Everything that was measured.
+/// All measurements.
 struct Measurements {
   std::vector<ErrorRow> scenes;  ///< A, B, C
   std::vector<ErrorRow> rods;
@@ -24,14 +24,14 @@ struct Measurements {
   std::vector<StepCost> step_costs;
   std::vector<ForkCurveRow> fork_curves;
   ContactTable contact;
-  std::vector<ExtremeRow> extremes;  ///< of contact
+  std::vector<ExtremeRow> extremes;  ///< limit cases of contact
   std::vector<UnitTime> unit_times;
-  double seconds = 0.0;            ///< that the report took, from its begin to its last picture
-  double processor_seconds = 0.0;  ///< of all its processes
+  double seconds = 0.0;            ///< duration of the report, from its start to the last picture
+  double processor_seconds = 0.0;  ///< of all processes
   bool quick = false;
 };
 
-/// A claim, what was asked, what came out.
+/// A claim, its requirement and the measured result.
 struct Verdict {
   std::string claim;
   std::string target;
@@ -40,8 +40,8 @@ struct Verdict {
 };
 std::string name_of(Verdict::Result result);
 
-/// Judges what the project promises of accuracy, speed and stability, from the measurements alone. Figures between two
-/// settings of a method are interpolated as run_time_for_error() does.
+/// Evaluates the claims on accuracy, speed and stability from the measurements alone. Values between two settings of a
+/// method are interpolated as in run_time_for_error().
 std::vector<Verdict> verdicts(const Measurements& measured);
 
 std::string verdicts_csv(const std::vector<Verdict>& verdicts);

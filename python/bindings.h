@@ -12,15 +12,15 @@ namespace spring_workbench::python {
 
 using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-/// As a 4 × 4 array, and back. Throws InputError naming `what` for another shape, a number that is not finite or a
-/// matrix that moves no rigid body.
+/// Conversion to a 4 × 4 array and back. Throws InputError naming `what` for a wrong shape, a number that is not
+/// finite, or a matrix that is not a rigid transform.
 Array to_array(const RigidTransform& X);
 RigidTransform to_pose(const Array& matrix, const std::string& what);
 Array to_array(const Eigen::Ref<const Eigen::VectorXd>& vector);
-/// Linear part, then angular part; force, then moment.
+/// Twist: linear part, then angular part; wrench: force, then moment.
 Array to_array(const Twist& V);
 Array to_array(const Wrench& F);
-/// Back; throws InputError naming `what` for another shape.
+/// Conversion back; throws InputError naming `what` for a wrong shape.
 Wrench to_wrench(const Array& vector, const std::string& what);
 /// `count` poses as a count × 4 × 4 array.
 template <typename PoseOf>
@@ -34,15 +34,16 @@ Array to_arrays(std::size_t count, PoseOf&& pose_of) {
   }
   return all;
 }
-/// Numbers, booleans, strings, lists and dictionaries, as a settings file has them. Throws InputError for others.
+/// Converts numbers, booleans, strings, lists and dictionaries to the YAML of a settings file. Throws InputError for
+/// other types.
 YAML::Node to_yaml(const pybind11::handle& value);
 
-/// The word of an enum's value.
+/// The name of an enum value.
 template <typename E>
 std::string word(E value) {
   return names_of(value).at(static_cast<std::size_t>(value));
 }
-/// The value of an enum's word. Throws InputError naming `key`.
+/// The enum value with this name. Throws InputError naming `key` if there is none.
 template <typename E>
 E value_of(const std::string& word, const std::string& key) {
   std::string known;
@@ -58,7 +59,7 @@ void bind_settings(pybind11::module_& module);
 void bind_motions(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
 
-/// A recorded hand, whole.
+/// A complete recorded hand.
 struct Motion {
   std::vector<motion::StylusSample> samples;
 };

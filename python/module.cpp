@@ -29,7 +29,7 @@ RigidTransform pose(const std::vector<double>& position, const std::vector<doubl
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled part of spring_workbench.";
   py::register_exception<validation::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
-      "Invalid input. The message names the field, what is allowed and what was given; the old state stays.";
+      "Invalid input. The message names the field, what is allowed and what was given; the state is unchanged.";
   bind_settings(module);
   bind_motions(module);
   bind_states(module);

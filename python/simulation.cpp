@@ -119,16 +119,15 @@ void bind_state_access(py::class_<Simulation>& type) {
           "True for each object that touches another body or the bench; shape (n,).")
       .def_property_readonly(
           "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
-          "True for each object that is at rest and costs nothing until something moves it; shape (n,).")
+          "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
       .def_property_readonly("contacts", &Simulation::contacts,
                              "Contact points at the present time: a list of Contact.")
       .def("fork", &Simulation::fork, py::arg("hand") = 0,
-           "Returns the state of the tool in a hand, also if it is no fork.")
+           "Returns the state of the tool in a hand, whether or not it is a fork.")
       .def("save", &Simulation::save, "Returns the whole state.")
       .def("restore", &Simulation::restore, py::arg("state"),
            "Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes "
-           "nothing, "
-           "if the state has other bodies, another contact mode, number of styluses or shape of the fork.")
+           "nothing, if the state has other bodies, another contact mode, number of styluses or shape of the fork.")
       .def_property_readonly(
           "state_hash", [](const Simulation& s) { return simulation::to_hex(s.state_hash()); },
           "Hash of the whole state: 16 hexadecimal digits.");
@@ -182,7 +181,7 @@ Raises InputError, and changes nothing, if a name is not that of a movable objec
 action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose), remove,
 mass [kg] or friction. Raises InputError if the object or a value is not allowed.)")
       .def("reset", &Simulation::reset,
-           "Puts all objects back to their initial poses; nothing is held, and all samples are forgotten.");
+           "Returns all objects to their initial poses; nothing is held, and all samples are forgotten.");
 }
 
 }  // namespace

@@ -115,15 +115,16 @@ void bind_report(py::module_& module) {
       .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound,
                     "Largest bound of the run's error in angle [rad].")
       .def_readonly("steps_unbounded", &AdvanceReport::steps_unbounded,
-                    "Steps for which there is no bound, in contact for example.")
+                    "Number of steps without a bound, e.g. in contact.")
       .def_readonly("energy_added", &AdvanceReport::energy_added,
-                    "Energy added by the integration beyond hand, gravity, contact and damping [J].")
+                    "Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
                     "Angular frequency of the stiffest mode times the step.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
-                    "Number of steps in which contact admitted no motion of an object.")
-      .def_readonly("steps_unsolved", &AdvanceReport::steps_unsolved,
-                    "Number of steps near other movable objects that were taken although a contact missed its law.")
+                    "Number of steps in which contact did not allow an object to move.")
+      .def_readonly(
+          "steps_unsolved", &AdvanceReport::steps_unsolved,
+          "Number of steps near other movable objects that were accepted although a contact violated its law.")
       .def_readonly("time_lost", &AdvanceReport::time_lost,
                     "Time during which a body did not follow its equation of motion [s].")
       .def_readonly("steps_rejected", &AdvanceReport::steps_rejected,

@@ -1,4 +1,4 @@
-"""What a study of tools consists of: its plan, the order of the conditions, the records and the questionnaire.
+"""Parts of a study of tools: its plan, the order of the conditions, the records and the questionnaire.
 Needs no ROS; scripts/study runs it."""
 import csv
 import io
@@ -38,7 +38,7 @@ PAIRS = tuple(itertools.combinations(SCALES, 2))
 
 
 class StudyError(ValueError):
-    """Input that cannot be used: one line that says what it is and what is allowed."""
+    """Invalid input: one line that says what it is and what is allowed."""
 
 
 def refuse(where, field, allowed, value):
@@ -63,7 +63,7 @@ def load_yaml(path):
 
 
 def keys_of(where, field, value, allowed):
-    """A mapping that has no other keys than the allowed ones."""
+    """Checks that a mapping has only allowed keys."""
     if not isinstance(value, dict):
         refuse(where, field, "a mapping", value)
     for key in value:
@@ -73,7 +73,7 @@ def keys_of(where, field, value, allowed):
 
 
 def load_plan(path):
-    """A plan of doc/reference.md, every field of it present. Paths are relative to the plan's folder."""
+    """Reads a plan (doc/reference.md) and fills in all fields. Paths are relative to the plan's folder."""
     defaults = {"settings": None, "practice": 1, "trials": 3, "time_limit": 300.0, "weighted": False}
     plan = {**defaults, **keys_of(path, "", load_yaml(path), ("scene", "conditions", *defaults))}
     folder = os.path.dirname(os.path.abspath(path))
@@ -105,7 +105,7 @@ def load_plan(path):
 
 
 def williams(count):
-    """Orders of 0 ... count - 1 (Williams 1949): over all of them each condition comes at each place equally often, and
+    """Orders of 0 ... count - 1 (Williams 1949): over all of them each condition is at each position equally often, and
     follows each other one equally often. `count` orders for an even number, twice as many for an odd one."""
     first = [0] + [(k + 1) // 2 if k % 2 else count - k // 2 for k in range(1, count)]
     square = [[(start + k) % count for k in first] for start in range(count)]
@@ -123,10 +123,10 @@ def steps(plan, participant):
 
 
 class Records:
-    """A CSV file that is whole at every moment, and can be continued."""
+    """A CSV file that is complete at every moment and can be continued."""
 
     def __init__(self, path, columns, expected):
-        """`expected`: the keys of all records, in their order; what the file has must be the first of them."""
+        """`expected`: the keys of all records, in order; the records in the file must be the first ones."""
         self.path, self.columns, self.expected, self.rows = path, columns, list(expected), []
         if not os.path.exists(path):
             return
@@ -201,7 +201,7 @@ def load_tlx(path, conditions, weighted):
 
 
 def ask(prompt, read, say=print, ask_line=input):
-    """Asks again until the answer can be used."""
+    """Asks until the answer is valid."""
     while True:
         try:
             return read(ask_line(prompt).strip())

@@ -11,8 +11,8 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double interval = 0.02;  ///< [s] between samples of the hand; a step each
-constexpr int steps_before = 100;  ///< until the object has come where it is to be
+constexpr double interval = 0.02;  ///< [s] between samples of the hand; one step per sample
+constexpr int steps_before = 100;  ///< steps until the object is in position
 
 constexpr char usage[] =
     "advance_steps SCENE.urdf none|free|pressed|ahead STEPS\n\n"
@@ -22,7 +22,7 @@ constexpr char usage[] =
     "as free, and a copy, as for the display, follows each step and advances 12 ms beyond it. Prints the steps taken,\n"
     "and those with contacts, of the last STEPS.\n";
 
-/// A smooth hand that draws a slanted figure of 0.1 m; `height` [m] is that of its fork's tip, which it keeps if
+/// A hand that moves smoothly along a slanted figure of 0.1 m; `height` [m]: height of the fork's tip, constant if
 /// `level`.
 RigidTransform hand_at(double t, double height, bool level) {
   const double rises = level ? 0.0 : 0.05 * std::sin(5.0 * t), turned = level ? 0.0 : 0.3;

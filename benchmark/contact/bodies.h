@@ -42,7 +42,7 @@ inline Vector3d box_inertia(double mass, const Vector3d& size) {
   return mass / 12.0 * Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
 }
 
-/// Drawn evenly from a ball about zero.
+/// A random vector, uniformly distributed in a ball about zero.
 inline Vector3d in_ball(double radius, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Vector3d p;
@@ -54,13 +54,13 @@ inline Vector3d in_ball(double radius, std::mt19937& random) {
 
 inline RigidTransform at(const Vector3d& p_WO) { return RigidTransform(Eigen::Translation3d(p_WO)); }
 
-/// A movable one, along the axes of W.
+/// A movable box aligned with the axes of W.
 inline scene::Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO,
                        double friction = 0.5) {
   return movable(name, geometry::Box{size}, at(p_WO), friction, mass, box_inertia(mass, size));
 }
 
-/// A prism over a polygon with corners at these radii around the z axis, evenly apart.
+/// A prism over a polygon with corners at these radii and equal angles around the z axis.
 inline geometry::MeshPtr prism(const std::vector<double>& radii, double height) {
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   const int n = static_cast<int>(radii.size());
@@ -98,7 +98,7 @@ inline geometry::MeshPtr torus(double radius, double tube_radius) {
   return mesh;
 }
 
-/// A movable one of uniform density.
+/// A movable body of uniform density.
 inline scene::Body uniform(const std::string& name, const geometry::Geometry& geometry, const RigidTransform& X_WO,
                            double friction, double mass) {
   const geometry::VolumeProperties of = geometry::volume_properties(geometry);

@@ -50,7 +50,7 @@ class BulletBoxWorld final : public BoxWorld {
   void step(double t, double h) override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (!scene_.holds(scene_.scene.bodies[i])) continue;
-      bodies_[i]->setInterpolationWorldTransform(to_bullet(scene_.X_WO(t)));  // what its velocity is taken from
+      bodies_[i]->setInterpolationWorldTransform(to_bullet(scene_.X_WO(t)));  // Bullet computes its velocity from this
       bodies_[i]->setWorldTransform(to_bullet(scene_.X_WO(t + h)));
     }
     world_.stepSimulation(h, 0);

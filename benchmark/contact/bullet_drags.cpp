@@ -80,7 +80,7 @@ class BulletSpring2 final : public BulletDrag {
     hand_.setActivationState(DISABLE_DEACTIVATION);
     hand_.setWorldTransform(hand_transform(0.0));
     hand_.setInterpolationWorldTransform(hand_transform(-step));
-    world_.addRigidBody(&hand_, 0, 0);  // it touches nothing
+    world_.addRigidBody(&hand_, 0, 0);  // without collisions
     const btTransform here = btTransform::getIdentity();
     coupling_ = std::make_unique<btGeneric6DofSpring2Constraint>(hand_, box_, here, here);
     for (int i = 0; i < 6; ++i) {

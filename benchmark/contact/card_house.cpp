@@ -11,8 +11,9 @@ namespace {
 constexpr double length = 0.09, width = 0.06, thickness = 1e-3;  // m, of a card
 constexpr double mass = 0.002;                                   // kg
 constexpr double lean = 20.0 * M_PI / 180.0;
-constexpr double between = length + 4e-4;       // m, of the middles of two pairs: as long as a lying card and a gap
-constexpr double clear = 1e-6;                  // m, between cards that touch soon
+constexpr double between =
+    length + 4e-4;              // m, distance of the centres of two pairs: length of a horizontal card plus a gap
+constexpr double clear = 1e-6;  // m, initial gap between cards that will touch
 constexpr double pull_time = 1.0, pull = 0.15;  // s, m
 
 scene::Body card(const std::string& name, const Vector3d& p_WO, double angle) {
@@ -24,7 +25,7 @@ scene::Body card(const std::string& name, const Vector3d& p_WO, double angle) {
 /// The height of a leaning card.
 double storey() { return length * std::cos(lean) + thickness * std::sin(lean); }
 
-/// Two that lean against each other above `x`, with their feet at height `z`.
+/// Two cards that lean against each other above `x`, with their feet at height `z`.
 void add_pair(const std::string& name, double x, double z, std::vector<scene::Body>& bodies) {
   const double from_middle = 0.5 * (length * std::sin(lean) + thickness * std::cos(lean)) + 0.5 * clear;
   for (const double side : {-1.0, 1.0}) {

@@ -34,12 +34,12 @@ scene::Scene scene_of(scene::ContactMode contact) {
   return scene;
 }
 
-/// Where the hand goes while steps are counted.
+/// Motion of the hand while steps are counted.
 struct Carry {
   const char* part;
   double height;  ///< of the tip above the held box's centre at rest [m]
   double speed;   ///< along x, towards the other one [m/s]
-  double ahead;   ///< where it begins along x [m]
+  double ahead;   ///< start position along x [m]
 };
 
 double step_cost(scene::ContactMode contact, const Carry& carry) {
@@ -77,9 +77,7 @@ void add_queries(std::vector<ContactCost>& costs) {
   RigidTransform high_on = high;
   high_on.translation().x() += 0.02;
   volatile double sink = 0.0;
-  const auto note = [&](const char* part, auto&& call) {
-    costs.push_back({"stop", part, least_nanoseconds(200, call)});
-  };
+  const auto note = [&](const char* part, auto&& call) { costs.push_back({"stop", part, min_nanoseconds(200, call)}); };
   note("query: is anything near the way, nothing is", [&](int) { sink = world->may_touch(0, high, high_on, 1e-4); });
   note("query: is anything near the way, something is", [&](int) { sink = world->may_touch(0, on, low, 1e-4); });
   note("query: contact points of a flush box", [&](int) {
@@ -100,11 +98,11 @@ void add_world(std::vector<ContactCost>& costs) {
   try {
     world = contact::open_rigid_world(scene_of(scene::ContactMode::dynamic));
   } catch (const validation::InputError&) {
-    return;  // built without it
+    return;  // this mode was not built
   }
   std::vector<rigid_bodies::DrivenBody> none;
   const auto note = [&](const char* part, auto&& call) {
-    costs.push_back({"dynamic", part, least_nanoseconds(200, call)});
+    costs.push_back({"dynamic", part, min_nanoseconds(200, call)});
   };
   note("world: a step of 2 ms, all asleep", [&](int) { world->step(2e-3, none); });
   note("world: a step of 2 ms, a box slides", [&](int i) {

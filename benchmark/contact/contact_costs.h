@@ -5,11 +5,11 @@
 
 namespace spring_workbench::benchmark {
 
-/// What a part of contact costs.
+/// Cost of a part of contact.
 struct ContactCost {
   std::string contact;  ///< mode: none, stop, dynamic
   std::string part;
-  double nanoseconds = 0.0;  ///< processor time of this thread: least of many short runs
+  double nanoseconds = 0.0;  ///< processor time of this thread: minimum over many short runs
 };
 
 template <typename Fields>
@@ -17,9 +17,9 @@ void each_field(ContactCost& c, Fields& fields) {
   fields(c.contact, c.part, c.nanoseconds);
 }
 
-/// The questions that `stop` asks of the collision world, a step of the rigid-body world, and whole steps of 20 ms of
-/// Simulation in each mode: a box that is carried freely, carried low over the bench, pressed on it, and pushed against
-/// another.
+/// Measures the queries of mode `stop` to the collision world, a step of the rigid-body world, and whole steps of 20 ms
+/// of Simulation in each mode: with a box that is carried freely, carried just above the bench, pressed onto it, and
+/// pushed against another.
 std::vector<ContactCost> measure_contact_costs();
 
 }  // namespace spring_workbench::benchmark

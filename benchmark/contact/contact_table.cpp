@@ -8,7 +8,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double time_limit = 10.0;  // s, for the runs of a line of the drag table
+constexpr double time_limit = 10.0;  // s, for the runs of a curve of the drag table
 
 std::vector<DragMethod> all_drags(const std::vector<DragMethod>& peers) {
   std::vector<DragMethod> all = our_drags();
@@ -76,7 +76,7 @@ ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, U
   ContactTable table;
   const std::vector<DragMethod> methods = all_drags(peers);
   std::size_t number = 0;
-  for (const double factor : factors(quick)) {  // a stiffness is one shard's, and its methods take turns
+  for (const double factor : factors(quick)) {  // a stiffness belongs to one shard, and its methods take turns
     for (const double step : steps()) {
       for (const Line& line : lines_of(methods)) {
         DragScene scene;

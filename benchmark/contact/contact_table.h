@@ -11,7 +11,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// Contact's error against its run time.
+/// Error against run time of contact.
 struct ContactTable {
   std::vector<DragRow> drags;
   std::vector<ImpactRow> impacts;
@@ -19,7 +19,7 @@ struct ContactTable {
   std::vector<ContactCost> costs;
 };
 
-/// `peers`: engines' drags; each run is made in a child process. The caller must have no other threads.
+/// `peers`: drag scenes of the engines. Each run is made in a child process, so the caller must have no other threads.
 ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Units& units);
 /// Number of units of work.
 std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick);

@@ -21,7 +21,7 @@ using dart::dynamics::FreeJoint;
 using dart::dynamics::Skeleton;
 using dart::dynamics::SkeletonPtr;
 
-void give_shape(BodyNode* body, const Vector3d& size, double friction) {
+void add_shape(BodyNode* body, const Vector3d& size, double friction) {
   auto* node = body->createShapeNodeWith<CollisionAspect, DynamicsAspect>(std::make_shared<BoxShape>(size));
   node->getDynamicsAspect()->setFrictionCoeff(friction);
 }
@@ -35,7 +35,7 @@ class DartDrag final : public DragWorld {
     world_->getConstraintSolver()->setCollisionDetector(dart::collision::DARTCollisionDetector::create());
     const SkeletonPtr ground = Skeleton::create("ground");
     const auto fixed = ground->createJointAndBodyNodePair<dart::dynamics::WeldJoint>();
-    give_shape(fixed.second, Vector3d(10.0, 10.0, 1.0), scene.friction);
+    add_shape(fixed.second, Vector3d(10.0, 10.0, 1.0), scene.friction);
     Eigen::Isometry3d below = Eigen::Isometry3d::Identity();
     below.translation().z() = -0.5;
     fixed.first->setTransformFromParentBodyNode(below);
@@ -43,7 +43,7 @@ class DartDrag final : public DragWorld {
     const auto free = box->createJointAndBodyNodePair<FreeJoint>();
     joint_ = free.first;
     box_ = free.second;
-    give_shape(box_, scene.size, scene.friction);
+    add_shape(box_, scene.size, scene.friction);
     dart::dynamics::Inertia inertia;
     inertia.setMass(scene.mass);
     inertia.setMoment(scene.inertia().asDiagonal().toDenseMatrix());

@@ -9,24 +9,24 @@
 
 namespace spring_workbench::benchmark {
 
-/// The drag scene: a box lies flush on the plane z = 0, held at its centre by six springs and dampers. The hand presses
-/// it 0.1 m below the plane and drags it 0.5 m along x at constant speed. It lags behind by μ (k 0.1 m + m g) / k.
+/// The drag scene: a box lies flat on the plane z = 0, held at its centre by six springs and dampers. The hand presses
+/// it 0.1 m below the plane and drags it 0.5 m along x at constant speed. The box lags behind by μ (k 0.1 m + m g) / k.
 struct DragScene {
   double stiffness_factor = 1.0;
-  bool turns = true;  ///< false: it cannot turn, which is easier: contact has nothing to rock
+  bool turns = true;  ///< false: the box cannot turn, which is easier because contact cannot rock it
 
   double mass = 5.0;                                                    ///< [kg]
   Vector3d size{0.2, 0.1, 0.05};                                        ///< [m]
   double friction = 0.5, gravity = 9.81;                                ///< –, [m/s²]
-  double stiffness() const { return 2000.0 * stiffness_factor; }        ///< of moving, every direction [N/m]
-  double turning_stiffness() const { return 20.0 * stiffness_factor; }  ///< every direction [N·m/rad]
+  double stiffness() const { return 2000.0 * stiffness_factor; }        ///< translational, in every direction [N/m]
+  double turning_stiffness() const { return 20.0 * stiffness_factor; }  ///< rotational, in every direction [N·m/rad]
   double damping() const;                                               ///< critical [N·s/m]
   double turning_damping() const;                                       ///< [N·m·s/rad]; critical about z
   Vector3d inertia() const;                                             ///< about the principal axes [kg m²]
   double exact_lag() const;                                             ///< [m]
 };
 
-/// Where the hand would have the box's centre, and how that moves.
+/// Position that the hand prescribes for the box's centre, with velocity and acceleration.
 struct DragHand {
   Vector3d p_W, v_W, a_W;  ///< [m], [m/s], [m/s²]
 };
@@ -37,15 +37,15 @@ DragHand drag_hand(const DragScene& scene, double t);
 class DragWorld {
  public:
   virtual ~DragWorld() = default;
-  /// From `t` on, `h` [s] long.
+  /// Takes a step of `h` [s] from time `t` [s].
   virtual void step(double t, double h) = 0;
   virtual RigidTransform box() const = 0;
 };
 
-/// Somebody who simulates the scene; `make` is given the step [s].
+/// A method that simulates the scene; `make` is given the step [s].
 struct DragMethod {
   std::string name;
-  bool can_lock_turning = false;  ///< `DragScene::turns` may be false
+  bool can_lock_turning = false;  ///< whether `DragScene::turns` may be false
   std::function<std::unique_ptr<DragWorld>(const DragScene&, double step)> make;
 };
 
@@ -55,9 +55,9 @@ struct DragRow {
   bool turns = true;
   double step = 0.0;  ///< [s]
   bool finite = false;
-  double lag = 0.0;          ///< at the end [m]
-  double lag_error = 0.0;    ///< of the exact lag, as a share
-  double penetration = 0.0;  ///< of a corner in the plane, largest of all steps [m]
+  double lag = 0.0;          ///< lag at the end [m]
+  double lag_error = 0.0;    ///< relative error of the lag
+  double penetration = 0.0;  ///< largest penetration of a corner over all steps [m]
   double cpu_us_per_simulated_second = 0.0;
   double cpu_us_per_step = 0.0;
 };
@@ -66,13 +66,13 @@ void each_field(DragRow& r, Fields& fields) {
   fields(r.method, r.stiffness_factor, r.turns, r.step, r.finite, r.lag, r.lag_error, r.penetration,
          r.cpu_us_per_simulated_second, r.cpu_us_per_step);
 }
-/// The run of a method: processor time is the least of `runs`, of the steps alone.
+/// Runs a method. The processor time is the minimum over `runs` runs and covers the steps only.
 DragRow run_drag(const DragMethod& method, const DragScene& scene, double step, int runs);
 
-/// Ours through Simulation: with contact mode `stop` on the bench, with `dynamic` on a movable slab (on the bench that
-/// is `stop`); with the shape `bushing` and the hand's samples at 50 Hz.
+/// Our contact, through Simulation: mode `stop` on the bench, `dynamic` on a movable slab (on the bench it would equal
+/// `stop`); with the shape `bushing` and hand samples at 50 Hz.
 std::vector<DragMethod> our_drags();
-/// Engines as a competent user couples them.
+/// The engines, coupled as a competent user would.
 std::vector<DragMethod> bullet_drags();
 std::vector<DragMethod> mujoco_drags();
 std::vector<DragMethod> ode_drags();

@@ -22,9 +22,9 @@ constexpr std::array<const char*, 4> shape_names{"box", "hull", "cylinder", "mes
 
 struct Thrown {
   scene::Body body;
-  std::vector<Vector3d> corners;  ///< lowest among them is the lowest point; of a cylinder's rims finely enough
+  std::vector<Vector3d> corners;  ///< points that include the lowest point; for a cylinder a fine sampling of its rims
   double step = 0.0, tilt = 0.0;
-  Vector3d v = Vector3d::Zero(), w = Vector3d::Zero();  ///< of the hand [m/s, rad/s]
+  Vector3d v = Vector3d::Zero(), w = Vector3d::Zero();  ///< velocities of the hand [m/s, rad/s]
 };
 
 Thrown thrown_of(unsigned seed) {
@@ -106,15 +106,15 @@ DropResult run(const Drop& drop) {
   simulation::Simulation s = let_go(scene, t.step, held, t.v, t.w);
   DropResult r;
   r.tilt = t.tilt;
-  double least_energy = energy(t.body, s.objects()[0]), fastest = 0.0, end = 2.0;
+  double min_energy = energy(t.body, s.objects()[0]), fastest = 0.0, end = 2.0;
   bool landed = false;
   for (int i = 1; held + i * t.step < end; ++i) {
     const simulation::AdvanceReport report = s.advance(held + i * t.step);
     const bodies::BodyState& o = s.objects()[0];
     r.steps_blocked += report.steps_blocked;
     const double e = energy(t.body, o), vz = o.V_WO_W.linear.z();
-    r.energy_gained = std::max(r.energy_gained, e - least_energy);
-    least_energy = std::min(least_energy, e);
+    r.energy_gained = std::max(r.energy_gained, e - min_energy);
+    min_energy = std::min(min_energy, e);
     r.rest_gap = lowest(t, o.X_WO);
     r.depth = std::max(r.depth, -r.rest_gap);
     if (!landed && (o.in_contact || vz > -fastest)) {

@@ -12,7 +12,7 @@ TEST_P(Drops, WithoutRestitutionNothingLeavesTheBench) {
   for (unsigned seed = 0; seed < 48; ++seed) {
     const DropResult result = run(Drop{GetParam(), seed});
     EXPECT_GT(result.impact_speed, 0.3) << seed;
-    // Further from flush its corners land one after the other, and it tumbles.
+    // If it is more tilted, its corners land one after the other, and it tumbles.
     EXPECT_LT(result.leaving, result.tilt < 0.03 ? 0.01 : 0.1) << seed;
     EXPECT_LT(result.energy_gained, 1e-3) << seed;
     EXPECT_LT(result.depth, 3e-4) << seed;
@@ -21,7 +21,7 @@ TEST_P(Drops, WithoutRestitutionNothingLeavesTheBench) {
   }
 }
 
-// In short steps, too, in which one corner touches long before the others.
+// Also in short steps, in which one corner touches long before the others.
 TEST(AlmostFlush, LandsWithAllCornersAtOnce) {
   int almost_flush = 0;
   for (unsigned seed = 48; seed < 360; ++seed) {

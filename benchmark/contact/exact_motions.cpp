@@ -18,11 +18,11 @@ constexpr double held = 0.04, sample_time = 0.02;                  // s
 constexpr double slab_height = 0.1, slab_width = 8.0;              // m
 constexpr double slab_mass = 1e6;                                  // kg
 
-/// A motion after the object was let go; `exact`: its pose, from pose and twist at t = 0.
+/// A motion after the release of an object. `exact`: its pose, computed from pose and twist at t = 0.
 struct Motion {
   std::string name;
   geometry::Geometry geometry;
-  double above = 0.0;  ///< of the centre above the support [m]
+  double above = 0.0;  ///< height of the centre above the support [m]
   Vector3d v, w;
   double duration = 0.0, restitution = 0.0;
   std::function<RigidTransform(const RigidTransform& X0, const Twist& V0, double t)> exact;
@@ -90,9 +90,9 @@ scene::Scene scene_of(const Motion& motion, scene::ContactMode contact) {
   return scene;
 }
 
-/// Of one run: the largest distance of a point on the object from where it should be, every 20 ms.
+/// Result of a run: largest distance of a point on the object from its exact position, evaluated every 20 ms.
 struct Ended {
-  double error = 0.0, way = 0.0;
+  double error = 0.0, displacement = 0.0;
   Measured measured;
 };
 
@@ -121,12 +121,12 @@ Ended run_motion(const Motion& motion, scene::ContactMode contact, double step) 
     if (deepest.depth > m.deepest.depth) m.deepest = deepest;
     const RigidTransform exact = motion.exact(X0, V0, i * sample_time);
     ended.error = std::max(ended.error, (poses[0].translation() - exact.translation()).norm());
-    // An edge's end, so that attitude counts; a sphere's is only rolled by contact.
+    // The end of an edge, so that orientation counts; for a sphere it does not.
     if (motion.name == "flies") {
       const Vector3d p(0.05, 0.05, 0.01);
       ended.error = std::max(ended.error, (poses[0] * p - exact * p).norm());
     }
-    ended.way = std::max(ended.way, (exact.translation() - X0.translation()).norm());
+    ended.displacement = std::max(ended.displacement, (exact.translation() - X0.translation()).norm());
   }
   return ended;
 }
@@ -140,19 +140,19 @@ void run_motions(bool quick, const TakeRow& take) {
     for (const Motion& motion : motions()) {
       std::vector<double> errors;
       TrialRow row{"motion", motion.name, name_of(contact), 0.005, {}, {}};
-      double way = 0.0;
+      double displacement = 0.0;
       for (const double step : steps) {
         const Ended ended = run_motion(motion, contact, step);
         errors.push_back(ended.error);
-        way = ended.way;
+        displacement = ended.displacement;
         if (step == row.step || quick) row.measured = ended.measured;
       }
       const double halvings = static_cast<double>(errors.size() - 1);
       row.bars = {at_least("order", std::log2(errors.front() / errors.back()) / halvings, 1.8)};
-      if (errors.front() < 1e-6 * way) row.bars.clear();  // nothing left to converge
+      if (errors.front() < 1e-6 * displacement) row.bars.clear();  // nothing left to converge
       if (!quick) {
-        row.bars.push_back(at_most("at 5 ms", 100.0 * errors[2] / way, 0.01, "% of the way"));
-        row.bars.push_back(at_most("at 1.25 ms", errors.back() / way, 1e-5, "of the way"));
+        row.bars.push_back(at_most("at 5 ms", 100.0 * errors[2] / displacement, 0.01, "% of the way"));
+        row.bars.push_back(at_most("at 1.25 ms", errors.back() / displacement, 1e-5, "of the way"));
       }
       row.bars.push_back(depth_bar(row.measured));
       row.bars.push_back(blocked_bar(row.measured));
@@ -177,7 +177,7 @@ ContactTrial incline(bool hull, scene::ContactMode contact, double off, double d
                             uniform("slider", shape, X_WO, friction, 1.0)},
                            friction);
   trial.settings = settings_with(0.0, 0.0, 0.02, "");
-  trial.settings.fork.shape = rod::ShapeKind::bushing;  // one that does nothing
+  trial.settings.fork.shape = rod::ShapeKind::bushing;  // the fork has no effect here
   const double length = trial.settings.fork.length;
   trial.X_WH = [=](double) { return hand_above(X_WO.translation(), length); };
   trial.woken_until = off < 0.0 ? duration : sample_time;
@@ -193,7 +193,7 @@ void run_inclines(bool quick, const TakeRow& take) {
         const double duration = off < 0.0 && !quick ? 60.0 : quick ? 1.0 : 5.0;
         TrialRun run(incline(hull, contact, off, duration));
         int asleep = 0;
-        bodies::BodyState first;  // let go for the first time
+        bodies::BodyState first;  // after the first release
         for (bool more = true; more;) {
           more = run.advance();
           const bodies::BodyState& now = run.simulation().objects()[0];
@@ -208,8 +208,8 @@ void run_inclines(bool quick, const TakeRow& take) {
           bars.push_back(at_most("steps asleep", asleep, 0.0));
         } else {
           const double angle = std::atan(0.5) + off, a = g * (std::sin(angle) - 0.5 * std::cos(angle));
-          const double left = duration - 0.04, way = first.V_WO_W.linear.norm() * left + 0.5 * a * left * left;
-          bars.push_back(at_most("way off the exact one", 100.0 * std::abs(slid / way - 1.0), 1.0, "%"));
+          const double left = duration - 0.04, displacement = first.V_WO_W.linear.norm() * left + 0.5 * a * left * left;
+          bars.push_back(at_most("way off the exact one", 100.0 * std::abs(slid / displacement - 1.0), 1.0, "%"));
         }
         bars.push_back(depth_bar(m));
         bars.push_back(blocked_bar(m));

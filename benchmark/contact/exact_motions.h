@@ -9,9 +9,11 @@ namespace spring_workbench::benchmark {
 /// the bench, and with `dynamic` on a loose slab of 1e6 kg that lies on it.
 void run_motions(bool quick, const TakeRow& take);
 
-/// A box or a hexagonal prism (a mesh) on an incline `off` [rad] from the angle of friction, kept awake.
+/// A box or a hexagonal prism (a mesh) on an incline whose angle differs from the friction angle by `off` [rad]; kept
+/// awake.
 ContactTrial incline(bool hull, scene::ContactMode contact, double off, double duration);
-/// 0.1° below for 60 s: it stays; 0.1° above for 5 s: it slides as it must.
+/// Tests that a body stays for 60 s at 0.1° below the friction angle, and slides with the exact acceleration for 5 s at
+/// 0.1° above it.
 void run_inclines(bool quick, const TakeRow& take);
 
 }  // namespace spring_workbench::benchmark

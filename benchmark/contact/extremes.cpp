@@ -21,14 +21,14 @@ constexpr double sample_time = 0.02;                          // s
 /// The first body is the held one.
 struct Setting {
   std::vector<scene::Body> bodies;
-  Vector3d pressed, shifted;  // the hand's two ways
+  Vector3d pressed, shifted;  // the two displacements of the hand
 };
 
 scene::Body cube(const std::string& name, double mass, const Vector3d& p_WO) {
   return box(name, Vector3d::Constant(edge), mass, p_WO);
 }
 
-/// Its face towards −x is at `x`.
+/// A wall whose face towards −x is at `x`.
 scene::Body wall(double x) {
   const Vector3d size(0.02, 1.0, 1.0);
   return standing("wall", geometry::Box{size}, at(Vector3d(x + 0.5 * size.x(), 0.0, 0.5)), 0.5);
@@ -109,7 +109,7 @@ double minimum_jerk(double u) {
   return u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
 }
 
-/// The hand, with the fork pointing down, above the held one at first.
+/// The hand, with the fork pointing down, initially above the held box.
 class Hand {
  public:
   Hand(const ExtremeCell& cell, const Setting& setting, double length)
@@ -139,7 +139,7 @@ class Watch {
     hardest_ = weight_;
   }
 
-  /// False when there is no point in going on.
+  /// Returns false if there is no point in continuing.
   bool look(bool at_rest, ExtremeOutcome& outcome) {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const bodies::BodyState& o = simulation_.objects()[i];
@@ -157,7 +157,7 @@ class Watch {
     if (!at_rest) return true;
     const double now = energy();
     const Vector3d handle = simulation_.fork().X_WH_proxy.translation();
-    // One that was held back is drawn to the hand again: work of the hand.
+    // A blocked object is pulled back to the hand, which is work of the hand.
     const double work = std::isfinite(lowest_) ? hardest_ * (handle - handle_).norm() : 0.0;
     lowest_ = std::min(lowest_ + work, now);
     handle_ = handle;
@@ -202,7 +202,7 @@ class Watch {
   const simulation::Simulation& simulation_;
   std::vector<bodies::BodyState> start_;
   double weight_ = 0.0, hardest_ = 0.0;
-  Vector3d handle_ = Vector3d::Zero();  ///< that the held one saw at the last look
+  Vector3d handle_ = Vector3d::Zero();  ///< proxy handle of the held object at the last call
   double lowest_ = std::numeric_limits<double>::infinity(), growth_ = 0.0;
 };
 

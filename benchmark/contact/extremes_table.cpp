@@ -12,7 +12,7 @@ namespace {
 
 constexpr scene::ContactMode modes[] = {scene::ContactMode::stop, scene::ContactMode::dynamic};
 
-/// Every stiffness with every step, each with another seed; of the stack, which costs most, none to be quick.
+/// Every stiffness with every step, each with a different seed; `quick` skips the stack, which costs most.
 std::vector<ExtremeCell> cells_of(ContactExtreme extreme, scene::ContactMode mode, bool quick) {
   const std::vector<double> stiffnesses = quick ? std::vector<double>{1e3} : std::vector<double>{1.0, 1e3, 1e6, 1e9};
   const std::vector<double> steps = quick ? std::vector<double>{0.02} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
@@ -34,7 +34,7 @@ std::vector<ExtremeRow> rows_of(ContactExtreme extreme, scene::ContactMode mode,
       const ExtremeCell& cell = cells[i];
       rows[i] = {name_of(extreme), name_of(mode), cell.stiffness, cell.step, static_cast<int>(cell.seed), run(cell)};
     });
-  } catch (const validation::InputError&) {  // no engine of this mode
+  } catch (const validation::InputError&) {  // this mode was not built
     return {};
   }
   return rows;

@@ -8,7 +8,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// One run of contact at an extreme: a cell of the stability map's contact panel.
+/// One run of a limit case of contact: a cell of the contact panel of the stability map.
 struct ExtremeRow {
   std::string extreme, contact;
   double stiffness = 0.0, step = 0.0;
@@ -22,8 +22,8 @@ void each_field(ExtremeRow& r, Fields& fields) {
          o.refused, o.steps_blocked);
 }
 
-/// Every extreme in both contact modes, with forks of 1 … 1e9 N/m and steps of 1/20 … 1/1000 s in turn. A mode that was
-/// not built has no rows. Runs on all processors at once.
+/// Runs every limit case in both contact modes, with forks of 1 … 1e9 N/m and steps of 1/20 … 1/1000 s in turn, on all
+/// processors. A mode that was not built has no rows.
 std::vector<ExtremeRow> extremes_table(bool quick, Units& units);
 /// Number of units of work.
 std::size_t extreme_unit_count();

@@ -1,4 +1,4 @@
-// Contact at its extremes, in both modes: cells of the stability map's contact panel.
+// Limit cases of contact in both modes: cells of the contact panel of the stability map.
 #include "benchmark/contact/extremes.h"
 
 #include <gtest/gtest.h>

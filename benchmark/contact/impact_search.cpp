@@ -12,8 +12,8 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double tolerance = 1e-6, resolution = 2e-4;  // m, as contact mode `stop` asks
-constexpr double way_length = 0.04;                    // m
+constexpr double tolerance = 1e-6, resolution = 2e-4;  // m, as in contact mode `stop`
+constexpr double path_length = 0.04;                   // m
 const Vector3d size(0.1, 0.06, 0.04);                  // m
 constexpr int rounds = 2;                              // of timing
 
@@ -72,45 +72,45 @@ std::vector<Pair> pairs() {
   return all;
 }
 
-struct Way {
+struct Move {
   RigidTransform X0, X1;
-  double exact;  ///< share of it
+  double exact;  ///< exact fraction of the motion
 };
 
-RigidTransform at(const Way& way, double u) {
-  RigidTransform X = way.X0;
-  X.linear() = way.X0.linear() * math::exp_so3(u * math::log_so3(way.X0.linear().transpose() * way.X1.linear()));
-  X.translation() += u * (way.X1.translation() - way.X0.translation());
+RigidTransform at(const Move& move, double u) {
+  RigidTransform X = move.X0;
+  X.linear() = move.X0.linear() * math::exp_so3(u * math::log_so3(move.X0.linear().transpose() * move.X1.linear()));
+  X.translation() += u * (move.X1.translation() - move.X0.translation());
   return X;
 }
 
 double depth(const RigidTransform& X) { return 0.5 * X.linear().row(2).cwiseAbs().dot(size) - X.translation().z(); }
 
-std::vector<Way> make_ways(int count) {
+std::vector<Move> make_moves(int count) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const auto any = [&] { return Vector3d(unit(random), unit(random), unit(random)); };
-  std::vector<Way> ways;
-  while (static_cast<int>(ways.size()) < count) {
-    Way way{RigidTransform::Identity(), RigidTransform::Identity(), 0.0};
-    way.X0.linear() = math::exp_so3(M_PI * any());
-    way.X1.linear() = way.X0.linear() * math::exp_so3(0.5 * any());
-    way.X0.translation() = Vector3d(0.0, 0.0, 0.5 * size.norm() + 0.01 * unit(random));
-    way.X1.translation() = way.X0.translation() + way_length * (any() - 2.0 * Vector3d::UnitZ()).normalized();
-    // The first moment, by fine steps and halving.
+  std::vector<Move> moves;
+  while (static_cast<int>(moves.size()) < count) {
+    Move move{RigidTransform::Identity(), RigidTransform::Identity(), 0.0};
+    move.X0.linear() = math::exp_so3(M_PI * any());
+    move.X1.linear() = move.X0.linear() * math::exp_so3(0.5 * any());
+    move.X0.translation() = Vector3d(0.0, 0.0, 0.5 * size.norm() + 0.01 * unit(random));
+    move.X1.translation() = move.X0.translation() + path_length * (any() - 2.0 * Vector3d::UnitZ()).normalized();
+    // First moment of contact, by small steps and bisection.
     constexpr int steps = 4000;
     int i = 0;
-    while (i <= steps && depth(at(way, static_cast<double>(i) / steps)) <= tolerance) ++i;
+    while (i <= steps && depth(at(move, static_cast<double>(i) / steps)) <= tolerance) ++i;
     if (i == 0 || i > steps) continue;
     double from = static_cast<double>(i - 1) / steps, to = static_cast<double>(i) / steps;
     for (int k = 0; k < 50; ++k) {
       const double middle = 0.5 * (from + to);
-      (depth(at(way, middle)) <= tolerance ? from : to) = middle;
+      (depth(at(move, middle)) <= tolerance ? from : to) = middle;
     }
-    way.exact = from;
-    ways.push_back(way);
+    move.exact = from;
+    moves.push_back(move);
   }
-  return ways;
+  return moves;
 }
 
 double largest_distance(const RigidTransform& A, const RigidTransform& B) {
@@ -119,30 +119,30 @@ double largest_distance(const RigidTransform& A, const RigidTransform& B) {
   return largest;
 }
 
-ImpactRow measure(const Pair& pair, const std::vector<Way>& ways, int levels) {
+ImpactRow measure(const Pair& pair, const std::vector<Move>& moves, int levels) {
   ImpactRow row{pair.name, levels};
-  for (const Way& way : ways) {
-    const collision::SweepResult found = pair.world->sweep(0, way.X0, way.X1, tolerance, resolution, levels);
-    const RigidTransform X = at(way, found.free_fraction);
-    const double error = largest_distance(X, at(way, way.exact));
-    row.mean_error += error / static_cast<double>(ways.size());
+  for (const Move& move : moves) {
+    const collision::SweepResult found = pair.world->sweep(0, move.X0, move.X1, tolerance, resolution, levels);
+    const RigidTransform X = at(move, found.free_fraction);
+    const double error = largest_distance(X, at(move, move.exact));
+    row.mean_error += error / static_cast<double>(moves.size());
     row.largest_error = std::max(row.largest_error, error);
     row.through += depth(X) > tolerance + 1e-9 ? 1 : 0;
   }
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
     const double begin = processor_time();
-    for (const Way& way : ways) pair.world->sweep(0, way.X0, way.X1, tolerance, resolution, levels);
+    for (const Move& move : moves) pair.world->sweep(0, move.X0, move.X1, tolerance, resolution, levels);
     least = std::min(least, processor_time() - begin);
   }
-  row.cpu_us = 1e6 * least / static_cast<double>(ways.size());
+  row.cpu_us = 1e6 * least / static_cast<double>(moves.size());
   return row;
 }
 
 }  // namespace
 
-std::vector<ImpactRow> measure_impact_search(int ways) {
-  const std::vector<Way> all = make_ways(ways);
+std::vector<ImpactRow> measure_impact_search(int moves) {
+  const std::vector<Move> all = make_moves(moves);
   std::vector<ImpactRow> rows;
   for (const Pair& pair : pairs()) {
     for (const int levels : {2, 4, 6, 8, 10, 12, 14, 16, 0}) rows.push_back(measure(pair, all, levels));

@@ -5,8 +5,8 @@
 
 namespace spring_workbench::benchmark {
 
-/// The scene's first body, carried by a rigid tool from its place in the scene for `held` [s] at `v` [m/s] and `w`
-/// [rad/s], world axes, and then let go with that.
+/// A simulation in which a rigid tool carries the scene's first body from its start pose for `held` [s] at `v` [m/s]
+/// and `w` [rad/s], world axes, and then releases it with these velocities.
 inline simulation::Simulation let_go(const scene::Scene& scene, double step, double held, const Vector3d& v,
                                      const Vector3d& w) {
   simulation::SimulationSettings set;

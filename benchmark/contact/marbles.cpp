@@ -11,13 +11,13 @@ constexpr double radius = 0.005, marble_mass = 1.3e-3;            // m, kg: glas
 constexpr double tray_mass = 0.5;                                 // kg
 constexpr double wall = 0.005, wall_height = 0.06;                // m
 constexpr double above_bench = 0.3;                               // m
-constexpr double most_tilt = 20.0 * M_PI / 180.0;                 // rad
+constexpr double max_tilt = 20.0 * M_PI / 180.0;                  // rad
 constexpr double tilt_time = 4.0, rest_time = 1.0, period = 2.0;  // s
 
-/// The inner width of a tray in which so many lie two deep, with some room.
+/// The inner width of a tray that holds this many marbles in two layers, with some space.
 double inner_width(int marbles) { return 2.2 * radius * std::ceil(std::sqrt(0.5 * marbles)); }
 
-/// Its origin is the middle of the floor's upper face.
+/// The tray; its origin is the centre of the floor's upper face.
 scene::Body tray(double inner) {
   const double outer = inner + 2.0 * wall;
   const Vector3d floor(outer, outer, wall);
@@ -39,7 +39,7 @@ ContactTrial tilted_marbles(int marbles, double duration) {
   std::vector<scene::Body> bodies{tray(inner)};
   for (int i = 0; i < marbles; ++i) {
     const int layer = i / (side * side), row = i / side % side, column = i % side;
-    const double shifted = 0.1 * radius * (layer % 2);  // else one stands on the top of another
+    const double shifted = 0.1 * radius * (layer % 2);  // otherwise one would stand exactly on top of another
     const Vector3d p(2.05 * radius * (column - 0.5 * (side - 1)) + shifted,
                      2.05 * radius * (row - 0.5 * (side - 1)) - shifted, above_bench + radius * (1.01 + 2.05 * layer));
     bodies.push_back(movable("marble" + std::to_string(i), geometry::Sphere{radius}, at(p), 0.3, marble_mass,
@@ -52,7 +52,7 @@ ContactTrial tilted_marbles(int marbles, double duration) {
   trial.settings = settings_with(2e4, 200.0, 0.02, "held");
   const double length = trial.settings.fork.length;
   trial.X_WH = [length](double t) {
-    const double turned = t < tilt_time ? most_tilt * std::sin(2.0 * M_PI * t / period) : 0.0;
+    const double turned = t < tilt_time ? max_tilt * std::sin(2.0 * M_PI * t / period) : 0.0;
     RigidTransform X_WE = at({0.0, 0.0, above_bench});
     X_WE.linear() = Eigen::AngleAxisd(turned, Vector3d(1.0, 0.3, 0.0).normalized()).toRotationMatrix();
     return RigidTransform(X_WE * hand_above(Vector3d::Zero(), length));

@@ -4,9 +4,9 @@
 
 namespace spring_workbench::benchmark {
 
-/// So many marbles of 10 mm in a held tray, which is tilted by ± 20° for 4 s and then held level for 1 s.
+/// Marbles of 10 mm in a held tray, which is tilted by ± 20° for 4 s and then held level for 1 s.
 ContactTrial tilted_marbles(int marbles, double duration);
-/// 100 and 1,000 of them; quick: 27, for 0.4 s.
+/// Runs 100 and 1,000 marbles; `quick`: 27 for 0.4 s.
 void run_marbles(bool quick, const TakeRow& take);
 
 }  // namespace spring_workbench::benchmark

@@ -11,7 +11,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-/// `stiff`: contacts with a time constant of two steps, the least that MuJoCo allows, in place of 20 ms.
+/// `stiff`: contacts with a time constant of two steps, the minimum in MuJoCo, instead of 20 ms.
 std::string model_of(const BoxScene& s, double step, bool stiff) {
   std::ostringstream out;
   out << std::setprecision(17);
@@ -49,7 +49,7 @@ std::string model_of(const BoxScene& s, double step, bool stiff) {
 class MujocoBoxWorld final : public BoxWorld {
  public:
   MujocoBoxWorld(const BoxScene& scene, double step, bool stiff) : scene_(scene) {
-    mju_user_warning = [](const char*) {};  // else MuJoCo writes a log file into the working directory
+    mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
     const std::string xml = model_of(scene, step, stiff);
     auto files = std::make_unique<mjVFS>();
     mj_defaultVFS(files.get());
@@ -80,7 +80,7 @@ class MujocoBoxWorld final : public BoxWorld {
     mj_step(model_, data_);
   }
   std::vector<RigidTransform> poses() const override {
-    mj_kinematics(model_, data_);  // else those of the step's begin
+    mj_kinematics(model_, data_);  // otherwise they are those of the start of the step
     std::vector<RigidTransform> poses;
     for (std::size_t i = 1; i <= scene_.scene.bodies.size(); ++i) {
       const mjtNum *p = data_->xpos + 3 * i, *q = data_->xquat + 4 * i;

@@ -11,7 +11,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double hand_inertia = 1e10;  // kg: the box does not move the hand
+constexpr double hand_inertia = 1e10;  // kg, so that the box does not move the hand
 
 std::string triple(const Vector3d& v) {
   std::ostringstream out;
@@ -29,8 +29,8 @@ std::string joints(const char* type, double stiffness, double damping, double ar
   return out.str();
 }
 
-/// A plane; a hand on three slides; and on it the box by slides and hinges with springs. Contact as MuJoCo has it by
-/// default, but with a round friction cone.
+/// MuJoCo model of the scene: a plane, a hand on three slide joints, and a box attached to the hand by slide and hinge
+/// joints with springs. Contact parameters are MuJoCo's defaults, except that the friction cone is elliptic.
 std::string model_of(const DragScene& s) {
   std::ostringstream out;
   out << std::setprecision(17)
@@ -48,7 +48,7 @@ std::string model_of(const DragScene& s) {
 class MujocoDrag final : public DragWorld {
  public:
   MujocoDrag(const DragScene& scene, double step, mjtIntegrator integrator) : scene_(scene) {
-    mju_user_warning = [](const char*) {};  // else MuJoCo writes a log file into the working directory
+    mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
     const std::string xml = model_of(scene);
     auto files = std::make_unique<mjVFS>();
     mj_defaultVFS(files.get());
@@ -90,7 +90,7 @@ class MujocoDrag final : public DragWorld {
     const DragHand hand = drag_hand(scene_, t);
     Eigen::Map<Vector3d>{data_->qpos} = hand.p_W;
     Eigen::Map<Vector3d>{data_->qvel} = hand.v_W;
-    // Its armature weighs nothing; its mass of 1 kg does.
+    // The armature has no weight, but the mass of 1 kg does.
     Eigen::Map<Vector3d>{data_->qfrc_applied} = (hand_inertia + 1.0) * hand.a_W + scene_.gravity * Vector3d::UnitZ();
   }
 

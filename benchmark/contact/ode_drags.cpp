@@ -55,7 +55,8 @@ class OdeDrag final : public DragWorld {
   OdeDrag& operator=(const OdeDrag&) = delete;
 
   void step(double t, double h) override {
-    // The hand's body is where the box is, so that the motor's points are the box's centre; it has the hand's velocity.
+    // The body of the hand is placed at the box, so that the motor acts at the box's centre; it has the hand's
+    // velocity.
     const RigidTransform X_WO = box();
     const Vector3d here = drag_hand(scene_, t).p_W, v = (drag_hand(scene_, t + h).p_W - here) / h;
     dBodySetPosition(hand_, X_WO.translation().x(), X_WO.translation().y(), X_WO.translation().z());
@@ -76,7 +77,7 @@ class OdeDrag final : public DragWorld {
   static void set_rows(dJointID joint, void (*set)(dJointID, int, dReal), const Vector3d& x, double k, double c,
                        double h) {
     for (int i = 0; i < 3; ++i) {
-      set(joint, dParamVel + dParamGroup * i, k / (h * k + c) * x[i]);  // of the hand against the box
+      set(joint, dParamVel + dParamGroup * i, k / (h * k + c) * x[i]);  // hand relative to box
       set(joint, dParamCFM + dParamGroup * i, 1.0 / (h * k + c));
     }
   }

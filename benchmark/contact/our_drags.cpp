@@ -27,7 +27,8 @@ scene::Scene scene_of(const DragScene& drag, scene::ContactMode contact) {
   box.collision.push_back({geometry::Box{drag.size}});
   scene.bodies.push_back(box);
   if (contact == scene::ContactMode::dynamic) {
-    // On the bench it goes as with `stop`: the plane is the top of a movable slab, that the world has to do with it.
+    // On the bench `dynamic` behaves like `stop`; a movable slab as the plane makes sure that the rigid-body world is
+    // used.
     scene::Body slab = box;
     slab.name = "slab";
     slab.X_WO.translation().z() = -0.5 * slab_size.z();
@@ -38,7 +39,7 @@ scene::Scene scene_of(const DragScene& drag, scene::ContactMode contact) {
     slab.collision = {{geometry::Box{slab_size}}};
     scene.bodies.push_back(slab);
     scene.bench_height = -slab_size.z();
-    scene.bench_material.friction = 4.0;  // it stays
+    scene.bench_material.friction = 4.0;  // so that the slab does not slide
   }
   return scene;
 }
@@ -47,7 +48,7 @@ simulation::SimulationSettings settings_of(const DragScene& drag, double step) {
   simulation::SimulationSettings set;
   const double k = drag.stiffness(), turning = drag.turning_stiffness();
   set.fork.shape = rod::ShapeKind::bushing;
-  set.fork.length = std::sqrt(3.0 * turning / k);  // so that bending turns by the same stiffness
+  set.fork.length = std::sqrt(3.0 * turning / k);  // so that bending has the same rotational stiffness
   set.fork.stiffness = {k, k, turning};
   set.grasp.object = "box";
   set.dynamics.step = step;

@@ -11,7 +11,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr int lines_around = 720;  // of a cylinder: its rim is 4e-6 of the radius outside of them
+constexpr int lines_around = 720;  // lines on a cylinder; the rim is outside of them by 4e-6 of the radius
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
@@ -35,9 +35,9 @@ double distance_to_surface(const geometry::TriangleMesh& mesh, const Vector3d& p
   return least;
 }
 
-/// Below the surface at `p`; negative: as far outside. Inside a convex shape it is a concave function of `p`.
+/// Depth of `p` below the surface, negative outside. Inside a convex shape it is a concave function of `p`.
 double depth_at(const geometry::Geometry& geometry, const Vector3d& p) {
-  const auto of = [](double x, double y) {  // below two faces at right angles
+  const auto of = [](double x, double y) {  // depth below two perpendicular faces
     return x >= 0.0 || y >= 0.0 ? std::min(x, y) : -std::hypot(x, y);
   };
   if (const auto* box = std::get_if<geometry::Box>(&geometry)) {
@@ -52,7 +52,7 @@ double depth_at(const geometry::Geometry& geometry, const Vector3d& p) {
   return geometry::contains(geometry, p) ? distance : -distance;
 }
 
-/// The largest value that a function which rises and then falls has between two numbers (golden section).
+/// Maximum of a unimodal function in an interval (golden-section search).
 template <typename Function>
 double largest(double from, double to, const Function& f) {
   const double share = 0.5 * (std::sqrt(5.0) - 1.0);
@@ -71,7 +71,7 @@ double largest(double from, double to, const Function& f) {
   return most;
 }
 
-/// Where a segment goes through a mesh: the fraction, and whether it goes in there.
+/// Crossings of a segment with a mesh: the fraction along the segment, and whether it enters the mesh there.
 std::vector<std::pair<double, bool>> crossings(const geometry::TriangleMesh& mesh, const std::vector<std::size_t>& near,
                                                const Vector3d& p, const Vector3d& q) {
   std::vector<std::pair<double, bool>> found;
@@ -111,7 +111,7 @@ class InMesh {
     for (const Edge& edge : edges) {
       if (!look_at(edge)) whole.push_back(edge);
     }
-    for (bool more = any_; more;) {  // what hangs on a point inside is inside
+    for (bool more = any_; more;) {  // points connected to an inside point are inside
       more = false;
       for (const auto& [i, j] : whole) {
         if (inside_[i] == inside_[j]) continue;
@@ -128,14 +128,14 @@ class InMesh {
  private:
   geometry::Geometry own() const { return geometry::MeshPtr(geometry::MeshPtr(), &mesh_); }
 
-  /// False for an edge that does not go through the surface.
+  /// Returns false for an edge that does not cross the surface.
   bool look_at(const Edge& edge) {
     const Vector3d &p = points_[edge.first], &q = points_[edge.second];
     const auto crossed = crossings(mesh_, near_, p, q);
     if (crossed.empty()) return false;
     any_ = true;
     double in_since = 0.0;
-    // A crossing of an edge that lies along a face may be missed at a seam: the winding number decides.
+    // A crossing of an edge that lies along a face may be missed at a seam, so the winding number decides.
     bool inside = !crossed.front().second && geometry::contains(own(), p);
     inside_[edge.first] = inside_[edge.first] || inside;
     for (const auto& [at, goes_in] : crossed) {

@@ -13,15 +13,15 @@ struct DeepestPair {
   std::string first, second;  ///< names; "workbench" for the bench
 };
 
-/// How deep the bodies of a scene are in each other, from their shapes alone: nothing here is shared with the contact
-/// engines. Two boxes: the shortest way that separates them. Spheres: exact. Anything else: the deepest point of one's
-/// edges below the other's surface, of both ways round; a cylinder's edges are lines 0.5° apart and both rims.
+/// Penetration depth between the bodies of a scene, computed from their shapes without any code of the contact engines.
+/// Two boxes: the shortest separating displacement. Spheres: exact. Other pairs: the deepest point of the edges of
+/// either one below the surface of the other; a cylinder's edges are lines 0.5° apart and both rims.
 class PairDepth {
  public:
   explicit PairDepth(const scene::Scene& scene);
 
-  /// Of all pairs of which one is movable, and of the movable ones with the bench. `X_WO`: of all bodies, as in the
-  /// scene.
+  /// The deepest of all pairs with a movable body, including the bench. `X_WO`: poses of all bodies, in the scene's
+  /// order.
   DeepestPair deepest(const std::vector<RigidTransform>& X_WO) const;
 
  private:

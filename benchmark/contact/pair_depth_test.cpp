@@ -23,7 +23,7 @@ double depth(const Geometry& a, const RigidTransform& X_WA, const Geometry& b, c
   return PairDepth(scene).deepest({X_WA, X_WB}).depth;
 }
 
-/// A box of triangles.
+/// A box as a triangle mesh.
 geometry::MeshPtr mesh_of(const Vector3d& size) {
   geometry::TriangleMesh mesh = *prism(std::vector<double>(4, std::sqrt(0.5)), 1.0);
   for (Vector3d& p : mesh.vertices) {
@@ -32,7 +32,7 @@ geometry::MeshPtr mesh_of(const Vector3d& size) {
   return std::make_shared<const geometry::TriangleMesh>(mesh);
 }
 
-/// Anywhere, turned anyhow.
+/// Random poses.
 class PairDepthLaws : public ::testing::Test {
  protected:
   Vector3d in_cube() { return Vector3d(unit_(random_), unit_(random_), unit_(random_)); }
@@ -88,7 +88,7 @@ TEST_F(PairDepthLaws, TrianglesOfABoxAreTheBox) {
   EXPECT_GT(overlapping, 20);
 }
 
-// Two rings that hang in each other: the crossing of two tubes, 0.1 mm of the polygons' sagitta aside.
+// Two linked rings: the overlap of two tubes, up to the polygons' sagitta of 0.1 mm.
 TEST_F(PairDepthLaws, LinkedRingsTouchWhereTheirTubesMeet) {
   const double radius = 0.02, tube = 0.004;
   const geometry::MeshPtr ring = torus(radius, tube);

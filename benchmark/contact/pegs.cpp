@@ -16,7 +16,7 @@ constexpr double aside = 3e-3, turned = 2.0 * M_PI / 180.0;
 constexpr double aside_time = 0.3, ramp_time = 0.1, push_time = 1.0, rest_time = 0.3;  // s
 constexpr int facets = 48;
 
-/// A tube around z whose inner facets leave the peg half the clearance.
+/// A tube around z whose inner facets leave half of the clearance to the peg.
 geometry::MeshPtr tube() {
   const double inner = 0.5 * (width + clearance) / std::cos(M_PI / facets), outer = 0.5 * width + thickness;
   auto mesh = std::make_shared<geometry::TriangleMesh>();
@@ -76,14 +76,15 @@ ContactTrial peg_in_hole(bool round, scene::ContactMode contact) {
   if (movable) trial.name += ", movable";
   trial.scene = scene_with("peg", contact, {uniform("held", shape, at(p_peg), 0.3, 0.1), block(round, movable)});
   trial.settings = settings_with(2000.0, 5.0, 0.02, "held");
-  trial.settings.fork.stiffness.bend = 100.0;  // stiffer ones jam the peg, as it must
+  trial.settings.fork.stiffness.bend = 100.0;  // a stiffer fork jams the peg, as expected
   const double fork = trial.settings.fork.length;
   trial.X_WH = [=](double t) {
     const double off = minimum_jerk(t / aside_time);
-    // Down at a constant speed after a ramp.
+    // Moves down at constant speed after a ramp.
     const double u = std::clamp(t - aside_time, 0.0, push_time);
-    const double gone = (u < ramp_time ? 0.5 * u * u / ramp_time : u - 0.5 * ramp_time) / (push_time - 0.5 * ramp_time);
-    RigidTransform X_WE = at(p_peg + Vector3d(off * aside, 0.0, -gone * pushed));
+    const double progress =
+        (u < ramp_time ? 0.5 * u * u / ramp_time : u - 0.5 * ramp_time) / (push_time - 0.5 * ramp_time);
+    RigidTransform X_WE = at(p_peg + Vector3d(off * aside, 0.0, -progress * pushed));
     X_WE.linear() = Eigen::AngleAxisd(off * turned, Vector3d::UnitY()).toRotationMatrix();
     return RigidTransform(X_WE * hand_above(Vector3d::Zero(), fork));
   };
@@ -97,7 +98,7 @@ void run_pegs(bool quick, const TakeRow& take) {
     for (const scene::ContactMode contact : {scene::ContactMode::stop, scene::ContactMode::dynamic}) {
       if (quick && (round || contact == scene::ContactMode::dynamic)) continue;
       TrialRun run(peg_in_hole(round, contact));
-      std::vector<double> forces;  // upwards on the peg, while the hand goes down steadily [N]
+      std::vector<double> forces;  // upward force on the peg while the hand moves down steadily [N]
       while (run.advance()) {
         const double t = run.time() - aside_time;
         if (t > 0.3 * push_time && t < 0.95 * push_time) {

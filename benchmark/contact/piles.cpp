@@ -20,7 +20,7 @@ std::string text(const char* before, double number, const char* after) {
   return out.str();
 }
 
-/// Over all bodies: the furthest way along the bench and downwards from where they were.
+/// Largest displacements over all bodies, along the bench and downwards.
 struct Moved {
   double across = 0.0, down = 0.0;
 };
@@ -85,7 +85,8 @@ ContactTrial pushed_pile(int across, int high, double step) {
 void run_piles(bool quick, const TakeRow& take) {
   struct Size {
     int across, high;
-    double mean, worst;  // s, bars of the processor time per 20 ms; `worst` of all steps below 100 boxes, else of 99 %
+    double mean,
+        worst;  // s, bounds of the processor time per 20 ms; `worst` for all steps below 100 boxes, otherwise for 99 %
   };
   std::vector<Size> sizes{{2, 2, 1e-3, 5e-3}, {3, 3, 4e-3, 20e-3}, {5, 4, 10e-3, 20e-3}};
   if (quick) sizes.resize(1);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""plot_scale.py CSV PNG: the output of `contact_trials scale` as a picture."""
+"""plot_scale.py CSV PNG: draws the output of `contact_trials scale`."""
 import csv
 import sys
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""plot_scene.py PNG [AZIMUTH ELEVATION] < SHAPES: what `contact_trials show` writes as a picture."""
+"""plot_scene.py PNG [AZIMUTH ELEVATION] < SHAPES: draws the output of `contact_trials show`."""
 import json
 import sys
 
@@ -14,7 +14,7 @@ BOX = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1,
 
 
 def faces(shape):
-    """The polygons of a shape's surface, in world."""
+    """The polygons of a shape's surface, in world coordinates [m]."""
     points = np.array(shape["points"])
     if shape["kind"] == "box":
         return [points[list(face)] for face in BOX]

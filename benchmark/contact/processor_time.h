@@ -4,7 +4,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// Of this thread [s].
+/// Processor time of this thread [s].
 inline double processor_time() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -15,13 +15,13 @@ namespace {
 constexpr double edge = 0.1, before = 0.005;           // m; the gap at the start
 constexpr double phase = 0.1, rest = 0.2, way = 0.02;  // s, s, m
 constexpr double farthest = 0.5;                       // m
-constexpr double most_times_real = 3.0;                // of processor time
+constexpr double max_times_real = 3.0;                 // of processor time
 constexpr std::array<int, 5> values{12, 13, 4, 4, 4};  // stiffness, ratio, step, damping, scene
 constexpr std::array<double, 4> steps{0.05, 0.02, 0.005, 0.001}, dampings{0.0, 0.1, 1.0, 10.0};
 
 using Indices = std::array<int, 5>;
 
-/// The pairs of values of a cell, as numbers.
+/// The pairs of values of a cell, encoded as numbers.
 std::vector<int> pairs_of(const Indices& cell) {
   std::vector<int> pairs;
   for (std::size_t a = 0; a < cell.size(); ++a) {
@@ -54,7 +54,8 @@ std::vector<MapCell> map_cells(int count) {
   while (static_cast<int>(cells.size()) < count) {
     Indices best{};
     int most = -1;
-    for (int candidate = 0; candidate < 100; ++candidate) {  // that of a hundred which meets the most new pairs
+    for (int candidate = 0; candidate < 100;
+         ++candidate) {  // of a hundred candidates, choose the one with the most new pairs
       Indices cell{};
       for (std::size_t k = 0; k < cell.size(); ++k) {
         cell[k] = static_cast<int>(random() % static_cast<unsigned>(values[k]));
@@ -106,14 +107,15 @@ ContactTrial map_trial(const MapCell& cell) {
   };
   trial.rests_from = 2.0 * phase;
   trial.duration = 2.0 * phase + rest;
-  trial.most_seconds = 4.0 * most_times_real * trial.duration;
+  trial.max_seconds = 4.0 * max_times_real * trial.duration;
   return trial;
 }
 
 void run_map(int count, int first, const TakeRow& take) {
   const std::vector<MapCell> cells = map_cells(first + count);
   std::vector<TrialSum> sums(map_scenes().size());
-  std::vector<std::array<int, 3>> counts(sums.size());  // that hold, above real time, that are not bounded
+  std::vector<std::array<int, 3>> counts(
+      sums.size());  // cells that pass, that are slower than real time, that are not bounded
   for (std::size_t i = static_cast<std::size_t>(first); i < cells.size(); ++i) {
     const MapCell& cell = cells[i];
     TrialRun run(map_trial(cell));
@@ -129,7 +131,7 @@ void run_map(int count, int first, const TakeRow& take) {
     const double times_real = m.cpu_mean / 0.02;
     const TrialRow row =
         run.row({depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m),
-                 at_most("moved", furthest, farthest, "m"), at_most("times real time", times_real, most_times_real)});
+                 at_most("moved", furthest, farthest, "m"), at_most("times real time", times_real, max_times_real)});
     const auto scene = static_cast<std::size_t>(cell.scene);
     take(sums[scene].add(row));
     counts[scene][0] += row.holds() ? 1 : 0;

@@ -18,7 +18,7 @@ constexpr double link_radius = 0.02, link_tube = 0.004;                        /
 constexpr int links = 10;
 constexpr double swing_speed = 2.0;  // m/s
 
-/// Whether the peg, along z of A, goes through the hole of a ring.
+/// Whether the peg, along z of A, passes through the hole of a ring.
 bool on_peg(const RigidTransform& X_AR) {
   const Vector3d n = X_AR.linear().col(2);
   if (std::abs(n.z()) < 1e-6) return false;
@@ -124,7 +124,7 @@ ContactTrial swung_chain(unsigned seed) {
   trial.settings = settings_with(2e4, 20.0, 0.02, "held");
   const double length = trial.settings.fork.length;
   trial.X_WH = [=](double t) {
-    const double gently = std::min(1.0, t / 0.2);  // from rest
+    const double gently = std::min(1.0, t / 0.2);  // starts from rest
     return hand_above(top + gently * gently * swing_speed / omega * std::sin(omega * t) * along, length);
   };
   trial.duration = swing_time;

@@ -19,7 +19,7 @@ bool same(const bodies::BodyState& a, const bodies::BodyState& b) {
 void run_same_bits(bool quick, const TakeRow& take) {
   struct Case {
     std::string name;
-    double height;  ///< of the far box's middle [m]; 0: there is none
+    double height;  ///< height of the far box's centre [m]; 0: no far box
   };
   for (const Case& c : {Case{"again", 0.0}, Case{"a far body rests", 0.02}, Case{"a far body falls", 0.5}}) {
     ContactTrial first = pushed_pile(2, 2, 0.02);

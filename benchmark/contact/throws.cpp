@@ -21,8 +21,8 @@ constexpr std::array<const char*, 4> shape_names{"card", "rod", "cylinder", "sta
 
 struct Thing {
   scene::Body body;
-  std::vector<Vector3d> corners;  ///< in the object frame; of a cylinder's rims finely enough
-  Vector3d v, w;                  ///< with which it is let go [m/s, rad/s]
+  std::vector<Vector3d> corners;  ///< in the object frame; for a cylinder a fine sampling of its rims
+  Vector3d v, w;                  ///< velocities at release [m/s, rad/s]
   double restitution = 0.0, step = 0.0;
 };
 
@@ -66,7 +66,7 @@ Thing thing_of(unsigned seed) {
   return t;
 }
 
-/// What bodies without gravity keep: momentum, angular momentum about the origin; and their energy.
+/// Conserved quantities without gravity: momentum, angular momentum about the origin; and the energy.
 struct Kept {
   Vector6d momentum = Vector6d::Zero();
   double energy = 0.0;
@@ -97,8 +97,8 @@ scene::Scene scene_of(const Throw& thrown, const Thing& t) {
   return scene;
 }
 
-/// How far the thing's furthest corner is beyond the near face of the wall [m], and whether its centre is. Beside the
-/// wall it is not beyond it.
+/// Updates the largest distance of a corner beyond the near face of the wall [m], and whether the centre is beyond it.
+/// Points next to the wall do not count.
 void look_at_wall(const Thing& t, const RigidTransform& X_AO, double width, ThrowResult& r) {
   const auto beside = [&](const Vector3d& p) { return p.tail<2>().cwiseAbs().maxCoeff() > 0.5 * width; };
   const Vector3d centre = X_AO.translation();
@@ -148,7 +148,8 @@ void run_throws(int count, int first, std::ostream& out) {
        {Throw{scene::ContactMode::stop, 0, false}, Throw{scene::ContactMode::dynamic, 0, false},
         Throw{scene::ContactMode::dynamic, 0, true}, Throw{scene::ContactMode::dynamic, 0, true, true}}) {
     std::array<ThrowResult, shape_names.size()> worst;
-    std::array<std::array<int, 5>, shape_names.size()> counts{};  // throws, passed, deep, worst seeds
+    std::array<std::array<int, 5>, shape_names.size()>
+        counts{};  // numbers of throws, passed through, too deep; worst seeds
     for (int seed = first; seed < first + count; ++seed) {
       const ThrowResult r = run({kind.contact, static_cast<unsigned>(seed), kind.loose, kind.among_others});
       const std::size_t shape = static_cast<std::size_t>(seed) % shape_names.size();

@@ -13,7 +13,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double sample_time = 0.02;  // s
-constexpr double take_every = 0.14;   // s, shorter than it takes a slow one to fall asleep
+constexpr double take_every = 0.14;   // s, shorter than the time after which a slow object is put to sleep
 
 }  // namespace
 
@@ -98,7 +98,7 @@ bool TrialRun::advance() {
   spent_ += spent;
   measured_.simulated = time_;
   measured_.to_the_end = time_ > trial_.duration - 0.5 * interval_;
-  return !measured_.to_the_end && spent_ < trial_.most_seconds;
+  return !measured_.to_the_end && spent_ < trial_.max_seconds;
 }
 
 std::vector<RigidTransform> TrialRun::poses() const {

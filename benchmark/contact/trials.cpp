@@ -64,7 +64,7 @@ void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
   }
 }
 
-/// The lines of a file of `record`, by seed; nothing where it is not there. A last line that was cut off is left out.
+/// The lines of a file written by `record`, by seed; empty if there is no file. Ignores a truncated last line.
 std::map<int, std::string> recorded(const std::string& path, const std::string& run) {
   std::map<int, std::string> lines;
   std::ifstream file(path);
@@ -74,7 +74,7 @@ std::map<int, std::string> recorded(const std::string& path, const std::string& 
   return lines;
 }
 
-/// Runs those of the seeds that are not in the file yet, and adds a line for each as it is done.
+/// Runs the seeds that are not in the file yet, and appends a line for each as it finishes.
 void record(const std::string& path, const WildMotion& motion, int first, int last, std::ostream& out) {
   std::ostringstream name;
   name << name_of(motion.contact) << ',' << name_of(motion.scene) << ',' << motion.damping_ratio << ',';
@@ -92,7 +92,7 @@ void record(const std::string& path, const WildMotion& motion, int first, int la
          << r.time_lost << ',' << r.refused << ',' << r.seconds << std::endl;
   }
   int count = 0, passed = 0, over = 0, blocked = 0, refused = 0, worst_seed = first;
-  double worst = 0.0, lost = 0.0, seconds = 0.0, most_seconds = 0.0;
+  double worst = 0.0, lost = 0.0, seconds = 0.0, max_seconds = 0.0;
   for (const auto& [seed, line] : recorded(path, run_name)) {
     if (seed < first || seed > last) continue;
     std::istringstream fields(line.substr(run_name.size()));
@@ -108,13 +108,13 @@ void record(const std::string& path, const WildMotion& motion, int first, int la
     lost += values[4];
     refused += static_cast<int>(values[5]);
     seconds += values[6];
-    most_seconds = std::max(most_seconds, values[6]);
+    max_seconds = std::max(max_seconds, values[6]);
     if (values[1] > worst) worst = values[1], worst_seed = seed;
   }
   out << "contact,scene,damping_ratio,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,"
          "time_lost_s,refused,cpu_s_per_motion,most_cpu_s\n"
       << run_name << count << ',' << passed << ',' << over << ',' << worst << ',' << worst_seed << ',' << blocked << ','
-      << lost << ',' << refused << ',' << seconds / std::max(count, 1) << ',' << most_seconds << std::endl;
+      << lost << ',' << refused << ',' << seconds / std::max(count, 1) << ',' << max_seconds << std::endl;
 }
 
 std::vector<WildScene> scenes_at(const std::vector<std::string>& arguments, std::size_t index) {
@@ -155,7 +155,7 @@ void run_scale(int most, std::ostream& out) {
   }
 }
 
-/// Those without seeds, whole or quick.
+/// Trials without seeds, complete or quick.
 const std::map<std::string, void (*)(bool quick, const TakeRow& take)>& trials() {
   static const std::map<std::string, void (*)(bool, const TakeRow&)> all{
       {"pile", run_piles},      {"stack", run_stacks},     {"cards", run_card_houses},
@@ -164,14 +164,14 @@ const std::map<std::string, void (*)(bool quick, const TakeRow& take)>& trials()
   return all;
 }
 
-/// Those of seeds first … first + count − 1.
+/// Trials for the seeds first … first + count − 1.
 const std::map<std::string, void (*)(int count, int first, const TakeRow& take)>& seeded_trials() {
   static const std::map<std::string, void (*)(int, int, const TakeRow&)> all{
       {"rings", run_rings}, {"chain", run_chains}, {"map", run_map}};
   return all;
 }
 
-/// What can be looked at.
+/// The trial called `name` for display.
 ContactTrial shown_trial(const std::string& name) {
   const std::map<std::string, std::function<ContactTrial()>> all{
       {"pile", [] { return pushed_pile(5, 4, 0.02); }},

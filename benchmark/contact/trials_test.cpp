@@ -1,4 +1,4 @@
-// Small parts of what `contact_trials` runs: what holds of them. The whole tables are in README.md here.
+// Small parts of what `contact_trials` runs. The complete tables are in README.md in this folder.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -16,7 +16,7 @@
 namespace spring_workbench::benchmark::trials_test {
 namespace {
 
-/// Of the pose that is furthest from its start [m].
+/// Largest distance of a body from its start [m].
 double moved(const TrialRun& run) {
   double most = 0.0;
   for (std::size_t i = 0; i < run.start().size(); ++i) {
@@ -63,7 +63,7 @@ TEST(ContactTrials, ACardHouseStands) {
   EXPECT_LE(moved(run), 2e-4);
 }
 
-// They fall on each other's edges, by less than a millimetre in a substep.
+// Cards fall on each other's edges, by less than a millimetre per substep.
 TEST(ContactTrials, AFallingCardHouseFallsThroughNoCard) {
   TrialRun run(card_house(true, 0.75));
   while (run.advance()) continue;
@@ -87,7 +87,7 @@ TEST(ContactTrials, APegOfABoxGoesInWithATenthOfAMillimetre) {
   }
 }
 
-// Meshes that touch in several places at once, where both are hollow.
+// Hollow meshes that touch in several places at once.
 TEST(ContactTrials, AChainHangsTogether) {
   TrialRun run(swung_chain(0));
   while (run.time() < 0.2 && run.advance()) continue;

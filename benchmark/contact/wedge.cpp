@@ -39,7 +39,7 @@ geometry::MeshPtr trapezoid(double width, double height, double left, double rig
   return mesh;
 }
 
-/// The parts, with their centres of mass at their origins.
+/// A part with its centre of mass at its origin.
 scene::Body part(const std::string& name, const geometry::MeshPtr& mesh, const Vector3d& middle, double friction,
                  double mass) {
   const geometry::VolumeProperties of = geometry::volume_properties(geometry::Geometry(mesh));
@@ -51,9 +51,9 @@ scene::Body part(const std::string& name, const geometry::MeshPtr& mesh, const V
 /// Wall, light block, wedge and heavy block from left to right. A pair's friction is the geometric mean.
 std::vector<scene::Body> parts(double friction) {
   const double block_run = high * std::tan(slope), wedge_run = wedge_high * std::tan(slope);
-  // At the height of the wedge's middle the blocks' faces are as far apart as the wedge is wide.
+  // At the height of the wedge's centre, the distance between the faces of the blocks is the width of the wedge.
   const double gap_at_middle = 0.5 * wedge_width + clear;
-  const double to_middle = (above - 0.5 * high) * std::tan(slope);  // further out than at the block's own middle
+  const double to_middle = (above - 0.5 * high) * std::tan(slope);  // further out than at the centre of the block
   const double x_block = gap_at_middle - to_middle + 0.5 * side;
   const scene::Body wall =
       standing("wall", geometry::Box{{0.1, 1.0, 1.0}}, at({-x_block - 0.5 * side - 0.05 - clear, 0.0, 0.5}), 0.0);
@@ -94,10 +94,10 @@ ContactTrial squeezed_wedge(double friction) {
   trial.trial = "wedge";
   trial.name = name_with("squeezed", friction);
   std::vector<scene::Body> bodies = parts(friction);
-  bodies.pop_back();  // the hand in place of the wall
+  bodies.pop_back();  // the hand replaces the wall
   trial.scene = scene_with("wedge", scene::ContactMode::dynamic, std::move(bodies), bench_friction);
   trial.settings = settings_with(press_stiffness, 1e3, 0.02, "light");
-  const Vector3d p(trial.scene.bodies[1].X_WO.translation().x(), 0.0, above);  // as high as it presses
+  const Vector3d p(trial.scene.bodies[1].X_WO.translation().x(), 0.0, above);  // at the height of the pressing force
   const double length = trial.settings.fork.length;
   trial.X_WH = [=](double t) {
     return hand_above(p + minimum_jerk(t / 0.3) * pressed / press_stiffness * Vector3d::UnitX(), length);
@@ -110,7 +110,7 @@ ContactTrial squeezed_wedge(double friction) {
 void run_wedges(bool quick, const TakeRow& take) {
   for (const double friction : {0.05, 0.3}) {
     TrialRun run(driven_wedge(friction));
-    // Steady: the blocks' faces carry H inwards at the angle of slope and friction; the heavy block slides.
+    // Steady state: the faces of the blocks transmit H at the angle of slope plus friction; the heavy block slides.
     const double steep = std::tan(slope + std::atan(friction));
     const double H = bench_friction * heavy * gravity / (1.0 - bench_friction * steep);
     double off = 0.0;

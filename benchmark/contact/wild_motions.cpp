@@ -15,8 +15,8 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double sample_time = 0.02, duration = 0.2;
-constexpr double most_speed = 5.0, most_turning = 50.0;
-constexpr double hand_reach = 0.35;                       // m from the middle; there the hand turns back
+constexpr double max_speed_seen = 5.0, max_turning = 50.0;
+constexpr double hand_reach = 0.35;                       // m from the centre, where the hand reverses
 const Vector3d middle(0.0, 0.0, 1.0);                     // of the scene, m
 const Vector3d rod_size(0.3, 0.01, 0.01);                 // m
 constexpr double room = 0.25, wall = 0.001;               // m: from the middle to a wall's middle, its thickness
@@ -38,7 +38,7 @@ double distance_from_axis(const Vector3d& a, const Vector3d& b) {
   return (p + s * d).norm();
 }
 
-/// How deep the pin (along z of A) is in the ring placed by X_AR; the ring's edges are what comes nearest to a line.
+/// Penetration of the pin (along z of A) into the ring at X_AR; the edges of the ring are the points nearest to a line.
 double ring_depth(const geometry::TriangleMesh& ring, const RigidTransform& X_AR) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3i& t : ring.triangles) {
@@ -50,7 +50,7 @@ double ring_depth(const geometry::TriangleMesh& ring, const RigidTransform& X_AR
   return pin_radius - nearest;
 }
 
-/// Whether the pin goes through the hole of the ring.
+/// Whether the pin passes through the hole of the ring.
 bool linked(const RigidTransform& X_AR) {
   const Vector3d n = X_AR.linear().col(2);
   if (std::abs(n.z()) < 1e-6) return false;
@@ -61,7 +61,7 @@ bool linked(const RigidTransform& X_AR) {
 struct Setting {
   scene::Scene scene;
   geometry::MeshPtr ring = torus(ring_radius, tube_radius);
-  RigidTransform X_WF = at_middle();  // of the room or the pin
+  RigidTransform X_WF = at_middle();  // pose of the room or the pin
 };
 
 Setting set_scene(const WildMotion& motion, const Matrix3d& R_scene, const Matrix3d& R_held) {
@@ -145,7 +145,7 @@ WildResult run(const WildMotion& motion) {
   Vector3d v = Vector3d::Zero(), w = v;
   const int samples = static_cast<int>(std::lround(duration / sample_time));
   for (int i = 0; i <= samples; ++i) {
-    if (i % 5 == 0) v = in_ball(most_speed, random), w = in_ball(most_turning, random);
+    if (i % 5 == 0) v = in_ball(max_speed_seen, random), w = in_ball(max_turning, random);
     simulation.push_stylus({sample_time * i, X_WH});
     const Vector3d next = X_WH.translation() + sample_time * v - middle;
     for (int axis = 0; axis < 3; ++axis) {

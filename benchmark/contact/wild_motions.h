@@ -7,15 +7,16 @@
 
 namespace spring_workbench::benchmark {
 
-/// What a wildly moved object may not go through.
+/// Scene of a stress test: what the moved object must not pass through.
 enum class WildScene {
   rod_in_room,  ///< a box of 300 × 10 × 10 mm is held in a closed room of 0.5 m whose walls are 1 mm thick
-  ring_on_rod   ///< a torus of triangles is held around a fixed rod that goes on beyond the hand's reach
+  ring_on_rod   ///< a torus of triangles is held around a fixed rod that extends beyond the hand's reach
 };
 const std::vector<WildScene>& wild_scenes();
 std::string name_of(WildScene scene);
 
-/// One motion: 0.2 s of a hand sampled at 50 Hz, at up to 5 m/s and 50 rad/s, its velocities drawn anew after 0.1 s.
+/// One motion: 0.2 s of a hand sampled at 50 Hz at random velocities up to 5 m/s and 50 rad/s, which change after 0.1
+/// s.
 struct WildMotion {
   WildScene scene = WildScene::rod_in_room;
   scene::ContactMode contact = scene::ContactMode::dynamic;
@@ -24,12 +25,12 @@ struct WildMotion {
 };
 
 struct WildResult {
-  double penetration = 0.0;     ///< largest, looked for every 2 ms [m]; exact, from the shapes' own geometry
-  bool passed_through = false;  ///< outside at the end, or no longer linked
+  double penetration = 0.0;     ///< largest penetration, checked every 2 ms; exact, from the geometry of the shapes [m]
+  bool passed_through = false;  ///< whether it was outside, or no longer linked, at the end
   double seconds = 0.0;         ///< processor time
   int steps = 0;
   int steps_blocked = 0;   ///< steps
-  double time_lost = 0.0;  ///< of the steps, in which it did not follow its equation [s]
+  double time_lost = 0.0;  ///< time during which the body did not follow its equation [s]
   int refused = 0;         ///< steps
 };
 

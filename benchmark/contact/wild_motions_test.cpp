@@ -19,7 +19,7 @@ TEST_P(RodInRoom, GoesThroughNoWall) {
   }
 }
 
-// Where a fork bent far folds, it takes substeps of microseconds. The damping ratio does not matter to that.
+// A strongly bent fork that folds needs substeps of microseconds, whatever its damping ratio.
 TEST(RodInRoom, IsNeverBlockedHoweverTheForkIsDampedOrFolds) {
   const auto check = [](unsigned seed, double damping_ratio) {
     const WildResult result = run(WildMotion{WildScene::rod_in_room, scene::ContactMode::stop, seed, damping_ratio});
@@ -35,7 +35,7 @@ TEST(RodInRoom, IsNeverBlockedHoweverTheForkIsDampedOrFolds) {
   }
 }
 
-// In 217 contacts of neighbouring triangles count as one, and it is the deepest that approaches.
+// In seed 217, contacts of neighbouring triangles are merged, and the deepest one approaches.
 TEST(RingOnRod, StaysOnTheRod) {
   for (const unsigned seed : {0u, 3u, 10u, 217u}) {
     const WildResult result = run(WildMotion{WildScene::ring_on_rod, scene::ContactMode::stop, seed});

@@ -49,13 +49,13 @@ scene::Scene scene_of(std::vector<scene::Body> bodies, double bounce = 0.0) {
   return scene;
 }
 
-/// A scene in the world alone.
+/// A scene simulated in the rigid-body world alone.
 struct Alone {
   std::string name;
   scene::Scene scene;
   Vector3d v;                                 ///< at the start [m/s]
   double duration;                            ///< [s]
-  std::function<Vector3d(double t)> p_exact;  ///< of the centre [m]
+  std::function<Vector3d(double t)> p_exact;  ///< exact position of the centre [m]
 };
 
 std::vector<Alone> scenes_alone() {
@@ -88,7 +88,7 @@ WorldStepRow run_alone(const Alone& s, double step) {
   const RigidTransform X0 = world->pose(0);
   world->place(0, X0, start, true);
   std::vector<rigid_bodies::DrivenBody> none;
-  double spent = 0.0, gone = 0.0;
+  double spent = 0.0, displacement = 0.0;
   const int steps = static_cast<int>(std::lround(s.duration / step));
   for (int i = 1; i <= steps; ++i) {
     const double begin = processor_time();
@@ -96,9 +96,9 @@ WorldStepRow run_alone(const Alone& s, double step) {
     spent += processor_time() - begin;
     const Vector3d exact = s.p_exact(i * step);
     row.error = std::max(row.error, (world->pose(0).translation() - exact).norm());
-    gone = std::max(gone, (exact - X0.translation()).norm());
+    displacement = std::max(displacement, (exact - X0.translation()).norm());
   }
-  row.error_share = row.error / gone;
+  row.error_share = row.error / displacement;
   row.cpu_us_per_simulated_second = 1e6 * spent / s.duration;
   return row;
 }
@@ -136,12 +136,12 @@ Push push(double step) {
 
 void add_pushes(const std::vector<double>& steps, double converged_step, std::vector<WorldStepRow>& rows) {
   const Push converged = push(converged_step);
-  const double gone = (converged.p.back() - converged.p[1]).norm();
+  const double displacement = (converged.p.back() - converged.p[1]).norm();
   for (const double step : steps) {
     const Push run = push(step);
     WorldStepRow row{"held box pushes another", "converged", step};
     for (std::size_t i = 0; i < run.p.size(); ++i) row.error = std::max(row.error, (run.p[i] - converged.p[i]).norm());
-    row.error_share = row.error / gone;
+    row.error_share = row.error / displacement;
     row.cpu_us_per_simulated_second = 1e6 * run.seconds / push_duration;
     rows.push_back(row);
   }

@@ -34,12 +34,12 @@ namespace {
 using namespace spring_workbench;
 using namespace spring_workbench::benchmark;
 
-constexpr double kSpeed = 0.02;     // [m/s]
-constexpr double kSettle = 3.0;     // [s] before and after the way
-constexpr double kPatience = 60.0;  // [s] until rviz shows the object, at the most
+constexpr double kSpeed = 0.02;    // [m/s]
+constexpr double kSettle = 3.0;    // [s] before and after the motion
+constexpr double kTimeout = 60.0;  // [s] limit until rviz shows the object
 
-/// Rests, goes `length` [s] along x, and rests.
-simulated_fastrak::PlayedMotion way(double length) {
+/// A motion that rests, moves along x for `length` [s], and rests.
+simulated_fastrak::PlayedMotion travel(double length) {
   std::vector<motion::StylusSample> samples(4);
   const double times[] = {0.0, kSettle, kSettle + length, kSettle + length + 1e5};
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -100,7 +100,7 @@ class Observer {
   std::vector<ros::Subscriber> subscribers_;
 };
 
-/// Messages to a relay and back: two connections, as from tracker_driver over manipulation to the observer.
+/// Messages to a relay and back: two connections, like those from tracker_driver through manipulation to the observer.
 class BareLoop {
  public:
   BareLoop(ros::NodeHandle& node, double rate)
@@ -157,18 +157,18 @@ std::vector<double> latencies_of(const std::vector<Moment>& written, const std::
   return latencies(written, seen, seen.back().x - (0.3 + way));  // in the end all are at rest
 }
 
-/// What rviz showed: latency, the records whose pose it never showed, and the time between two pictures, as rows; or
-/// that it is lost.
+/// Rows on what rviz showed: latency, records whose pose was never shown, time between two frames; or that the ruler
+/// was lost.
 void add_pixels(std::ostream& out, const std::string& run, const std::vector<Moment>& written,
-                const std::vector<Moment>& seen, double length) {
+                const std::vector<Moment>& observed, double length) {
   try {
-    const std::vector<double> shown = latencies_of(written, seen, length);
+    const std::vector<double> shown = latencies_of(written, observed, length);
     add_row(out, run, "pixel", shown);
     out << run << ",never shown," << written.size() - shown.size() << ",,,," << std::endl;
     std::vector<double> between;
-    for (std::size_t i = 1; i < seen.size(); ++i) {
-      if (seen[i - 1].t > written.front().t && seen[i].t < written.back().t)
-        between.push_back(seen[i].t - seen[i - 1].t);
+    for (std::size_t i = 1; i < observed.size(); ++i) {
+      if (observed[i - 1].t > written.front().t && observed[i].t < written.back().t)
+        between.push_back(observed[i].t - observed[i - 1].t);
     }
     std::sort(between.begin(), between.end());
     add_row(out, run, "between pictures", between);
@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
   spinner.start();
   const Observer committed(node, "manipulation/"), displayed(node, "manipulation/display/");
   const BareLoop bare(node, rate);
-  const simulated_fastrak::PlayedMotion motion = way(length);
+  const simulated_fastrak::PlayedMotion motion = travel(length);
   const std::vector<simulated_fastrak::PlayedMotion> motions(static_cast<std::size_t>(stations), motion);
   simulated_fastrak::FastrakSimulator simulator(simulated_fastrak::FastrakDevice(motions, {1, 2}),
                                                 simulated_fastrak::LineFaults(), port);

@@ -42,9 +42,9 @@ PixelObserver::~PixelObserver() {
   XCloseDisplay(static_cast<Display*>(display_));
 }
 
-std::vector<Moment> PixelObserver::seen() const {
+std::vector<Moment> PixelObserver::observed() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return seen_;
+  return observed_;
 }
 
 void PixelObserver::run() {
@@ -65,7 +65,7 @@ void PixelObserver::run() {
     if (!std::isfinite(now) || now == before) continue;
     before = now;
     const std::lock_guard<std::mutex> lock(mutex_);
-    seen_.push_back({t, now});
+    observed_.push_back({t, now});
   }
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What scripts/latency shows to measure to the pixel: pixel_view.py FOLDER writes FOLDER/ruler.urdf, a ruler with
-stripes of 4 mm in red, green and blue, and FOLDER/pixel.rviz, which looks at it from above, 50,000 pixels a metre."""
+"""Scene and view with which scripts/latency measures to the pixel. pixel_view.py FOLDER writes FOLDER/ruler.urdf, a
+ruler with stripes of 4 mm in red, green and blue, and FOLDER/pixel.rviz, a view of it from above with 50,000 pixels per
+metre."""
 import pathlib
 import sys
 

@@ -25,7 +25,8 @@ std::vector<Moment> play(simulated_fastrak::FastrakSimulator& simulator, const s
     std::this_thread::sleep_until(steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(
         std::chrono::duration<double>(start + static_cast<double>(cycle) / cycles))));
   };
-  // The nodes start, the device is set up; at the same rate, by which the driver knows the device's clock.
+  // While the nodes start and set up the device, it already measures at the same rate, from which the driver learns its
+  // clock.
   const double before = steady_now();
   for (long cycle = 1; !ready(); ++cycle) {
     wait_for_cycle(before, cycle);
@@ -38,20 +39,20 @@ std::vector<Moment> play(simulated_fastrak::FastrakSimulator& simulator, const s
     wait_for_cycle(start, cycle);
     const double begin = steady_now();
     simulator.measure(t);
-    // A record at the very begin says the same as those of the rest before it.
+    // A record at the very start equals those of the rest before it.
     if (t > playing.begin + 0.5 / cycles && t < playing.end && simulator.device().last_station() == playing.counted)
       written.push_back({begin, motion.at(t).X.translation().x()});
   }
   return written;
 }
 
-std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double offset) {
+std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> observed, double offset) {
   std::vector<double> result;
-  for (std::size_t i = seen.size(); i-- > 1;) seen[i - 1].x = std::min(seen[i - 1].x, seen[i].x);
+  for (std::size_t i = observed.size(); i-- > 1;) observed[i - 1].x = std::min(observed[i - 1].x, observed[i].x);
   std::size_t i = 0;
   for (const Moment& record : written) {
-    while (i < seen.size() && seen[i].x - offset < record.x - kTolerance) ++i;
-    if (i < seen.size()) result.push_back(seen[i].t - record.t);
+    while (i < observed.size() && observed[i].x - offset < record.x - kTolerance) ++i;
+    if (i < observed.size()) result.push_back(observed[i].t - record.t);
   }
   if (result.size() < 10) {
     throw std::runtime_error("only " + std::to_string(result.size()) + " of " + std::to_string(written.size()) +

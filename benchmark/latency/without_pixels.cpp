@@ -2,7 +2,7 @@
 
 #include "benchmark/latency/pixel_observer.h"
 
-// Where there is no Xlib.
+// Used if Xlib is missing.
 
 namespace spring_workbench::benchmark {
 
@@ -10,6 +10,6 @@ PixelObserver::PixelObserver(const Ruler& ruler) : ruler_(ruler), display_(nullp
   throw std::runtime_error("built without Xlib (libx11-dev): no pixels");
 }
 PixelObserver::~PixelObserver() = default;
-std::vector<Moment> PixelObserver::seen() const { return seen_; }
+std::vector<Moment> PixelObserver::observed() const { return observed_; }
 
 }  // namespace spring_workbench::benchmark

@@ -19,21 +19,21 @@
 #include "spring_workbench/StepReport.h"
 #include "spring_workbench/scene/scene.h"
 
-// What the running nodes cost: one or two hands each take an object of the scene, press it on what it stands on and
-// push it along x, behind a simulated device. doc/load.md says what is measured.
+// Cost of the running nodes: one or two hands, driven by a simulated device, each grasp an object of the scene, press
+// it down and push it along x. doc/load.md describes what is measured.
 
 namespace {
 
 using namespace spring_workbench;
 using namespace spring_workbench::benchmark;
 
-constexpr double kSpeed = 0.01;                                        // [m/s] along x
-constexpr double kReach = 0.2;                                         // [m] of the fork, from the handle to the tip
-constexpr double kAbove = 0.15, kPressed = 0.005;                      // [m]
-constexpr double kBetween = 0.1;                                       // [s] two looks at the processor time
+constexpr double kSpeed = 0.01;                    // [m/s] along x
+constexpr double kReach = 0.2;                     // [m] reach of the fork from the handle to the tip
+constexpr double kAbove = 0.15, kPressed = 0.005;  // [m]
+constexpr double kBetween = 0.1;                   // [s] between two readings of the processor time
 constexpr double kDown = 1.0, kGrasp = 1.5, kBegin = 2.5, kEnd = 2.0;  // [s]
 
-/// Down to an object, in which the tip then is; grasps, presses, goes evenly along x, and rests.
+/// A motion that lowers the tip into an object, grasps it, presses, moves along x at constant speed, and rests.
 simulated_fastrak::PlayedMotion work_at(const Vector3d& object, double length) {
   std::vector<motion::StylusSample> samples;
   const auto add = [&](double t, double x, double height, bool button) {
@@ -53,10 +53,10 @@ simulated_fastrak::PlayedMotion work_at(const Vector3d& object, double length) {
   return simulated_fastrak::PlayedMotion(samples);
 }
 
-/// Of a process, from /proc.
+/// Data on a process from /proc.
 struct Process {
   explicit Process(int pid) : folder("/proc/" + std::to_string(pid) + "/") {}
-  /// Since it was started [s].
+  /// Time since its start [s].
   double age() const {
     std::ifstream up("/proc/uptime");
     double uptime = 0.0;
@@ -65,7 +65,7 @@ struct Process {
   }
   /// Processor time of all threads [s].
   double processor_time() const { return (ticks(kUser) + ticks(kSystem)) / static_cast<double>(sysconf(_SC_CLK_TCK)); }
-  /// Resident [MB].
+  /// Resident memory [MB].
   double memory() const {
     std::ifstream file(folder + "statm");
     double total = 0.0, resident = 0.0;
@@ -75,7 +75,7 @@ struct Process {
   std::string folder;
 
  private:
-  // Fields of the file `stat` behind the name of the program.
+  // Fields of the file `stat` after the name of the program.
   static constexpr std::size_t kUser = 11, kSystem = 12, kStart = 19;
   double ticks(std::size_t field) const {
     std::ifstream stat(folder + "stat");
@@ -86,8 +86,8 @@ struct Process {
   }
 };
 
-/// Listens to the node, and takes the messages for rviz and for a bag too, unread. What it takes from the steps are
-/// those in which something was held.
+/// Subscribes to the node, including the messages for rviz and for a bag, which it does not read. Evaluates the cycles
+/// in which something was held.
 class Observer {
  public:
   Observer(ros::NodeHandle& node, const Process& process) : process_(process) {
@@ -109,15 +109,15 @@ class Observer {
     return locked([this] { return !seen.empty(); });
   }
 
-  // Under the lock.
+  // Guarded by the mutex.
   std::vector<Moment> seen;           ///< of the first hand
   std::vector<double> step_times;     ///< [s] of cycles
   std::vector<double> publish_times;  ///< [s] of cycles
-  double first = 0.0, until = 0.0;    ///< such cycles, steady [s]
-  double processor_time = 0.0;        ///< of the node between the two [s]
+  double first = 0.0, until = 0.0;    ///< times of the first and last such cycle, steady clock [s]
+  double processor_time = 0.0;        ///< processor time of the node between the two [s]
   std::size_t missed = 0;             ///< deadlines
-  double start = 0.0;                 ///< of the node, up to its first report [s]
-  std::set<std::string> run, named;   ///< parts
+  double start = 0.0;                 ///< start-up time of the node until its first report [s]
+  std::set<std::string> run, named;   ///< subsystems that ran; all subsystems
 
  private:
   void take_steps(const StepReport::ConstPtr& message) {
@@ -162,7 +162,7 @@ std::string words(const std::set<std::string>& all, const std::set<std::string>&
   return text;
 }
 
-/// Where the first `count` movable objects of the scene are.
+/// Positions of the first `count` movable objects of the scene.
 std::vector<Vector3d> objects_of(const scene::Scene& scene, std::size_t count) {
   std::vector<Vector3d> places;
   for (const scene::Body& body : scene.bodies) {
@@ -172,9 +172,9 @@ std::vector<Vector3d> objects_of(const scene::Scene& scene, std::size_t count) {
   return places;
 }
 
-/// Start [ms], memory [MB], cycles, 50, 99 and 99.9 % of their time [µs], deadlines missed, 50 %, 99 % and longest
-/// latency [ms], parts that ran, parts that never did, 99 % of the times of publishing [µs], and processor time of the
-/// node [% of one processor].
+/// Writes start-up time [ms], memory [MB], cycles, quantiles 50, 99 and 99.9 % of their time [µs], deadlines missed, 50
+/// % and 99 % quantiles and maximum of latency [ms], subsystems that ran, subsystems that did not, 99 % quantile of the
+/// publishing time [µs], and processor time of the node [% of one processor].
 void tell(Observer& observer, const Process& process, const std::vector<double>& all, std::ostream& out) {
   observer.locked([&] {
     std::vector<double>& steps = observer.step_times;

@@ -29,7 +29,7 @@ GRID_LINK = """<link name="box%d"><inertial><mass value="0.1"/>
 
 
 def grid(folder, count):
-    """A scene of boxes on the bench in a square, and beside it two for the hands to push along."""
+    """A scene with a square grid of boxes on the bench, and two boxes next to it for the hands to push."""
     side = math.ceil(math.sqrt(count - 2))
     places = [(0.0, -0.1), (0.0, -0.2)] + [(0.1 * (i % side), 0.1 * (i // side)) for i in range(count - 2)]
     links = "".join(GRID_LINK % (i, i, i, x, y) for i, (x, y) in enumerate(places))
@@ -39,7 +39,7 @@ def grid(folder, count):
 
 
 class Master:
-    """A ROS master on a port that is free; parameters go there by rosparam."""
+    """A ROS master on a free port; parameters are set by rosparam."""
 
     def __enter__(self):
         with socket.socket() as s:
@@ -78,11 +78,11 @@ class Master:
 
 
 class CannotKeepUpError(RuntimeError):
-    """Hardly any record of the hand was seen again."""
+    """Almost none of the hand's samples appeared in the output."""
 
 
 def measure(master, folder, scene, contact, hands, rate, physics_rate, length):
-    """The fields that `load` tells, in its order."""
+    """The fields that `load` prints, in its order."""
     out, port = folder / "row.csv", folder / "port"
     node = master.start("manipulation", scene=scene, contact=contact, rate=physics_rate)
     load = master.start("load", scene=scene, hands=hands, rate=rate, length=length, port=port, out=out, pid=node.pid)
@@ -103,9 +103,9 @@ def measure(master, folder, scene, contact, hands, rate, physics_rate, length):
         offset="0 0 0 0 0 0 1",
     )
     try:
-        said = load.communicate(timeout=length + DEADLINE)[1]
+        output = load.communicate(timeout=length + DEADLINE)[1]
         if load.returncode != 0:
-            raise CannotKeepUpError(said) if "records were seen again" in said else RuntimeError(said)
+            raise CannotKeepUpError(output) if "records were seen again" in output else RuntimeError(output)
         return out.read_text().strip().split(",")
     finally:
         for process in [load, driver, node]:

@@ -1,6 +1,7 @@
 // stability_map --out FOLDER [--full [--cells N]]
-// The stability map alone: the cells that the report draws, or the whole product of their values. The latter goes on
-// from the cells in FOLDER/full.tsv, with N more at most.
+//
+// The stability map alone: the cells that the report draws, or the full product of their values. The latter continues
+// from the cells in FOLDER/full.tsv, with at most N more.
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -48,7 +49,7 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
-/// Those that are made for stiff forks.
+/// Plan for the integrators made for stiff forks.
 StabilityPlan full_plan() {
   StabilityPlan plan = stability_plan(false);
   std::vector<std::string> stiff;

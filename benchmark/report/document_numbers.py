@@ -24,7 +24,7 @@ values:
     is the fastest<!-- all verdict=PASS of verdicts.csv where claim~^Rod stiff.*every peer -->
     is cheaper<!-- less max us of t.csv where method=ode than min us of t.csv where method=stop -->
 
-Usage: document_numbers.py            tells stale numbers and markers that say nothing; status 1 if there are any
+Usage: document_numbers.py reports stale numbers and invalid markers; status 1 if there are any
        document_numbers.py --write    puts the tables' numbers in"""
 import csv
 import math
@@ -45,7 +45,7 @@ NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
 class Stale(Exception):
-    """What is wrong with a marker."""
+    """A fault of a marker."""
 
 
 def rows_of(path):
@@ -56,7 +56,7 @@ def rows_of(path):
 
 
 def run_of(path):
-    """How the report was run that wrote a table."""
+    """How the report that wrote a table was run: quick or full."""
     if not path.is_file():
         raise Stale(f"no table {path.name}")
     with path.open(encoding="utf-8") as file:
@@ -74,7 +74,7 @@ def same(cell, wanted):
 
 
 def condition_of(text, rows, table):
-    """What a row must be, by `column=value` or `column~pattern`."""
+    """Parses a condition on rows, `column=value` or `column~pattern`."""
     key, sign, wanted = re.fullmatch(r"([^=~]*)([=~]?)(.*)", text.strip()).groups()
     if rows and key not in rows[0]:
         raise Stale(f"{table} has no column {key}")
@@ -82,7 +82,7 @@ def condition_of(text, rows, table):
 
 
 def chosen(table, where, results):
-    """The rows of a table where all cells are as said."""
+    """The rows of a table whose cells meet all conditions."""
     rows = rows_of(results / table)
     for text in filter(None, (part.strip() for part in (where or "").split(","))):
         rows = list(filter(condition_of(text, rows, table), rows))
@@ -121,7 +121,7 @@ def value_of(kind, column, table, where, times, results):
 
 
 def false_sentences(line, results):
-    """What the markers of a line that compare find untrue."""
+    """The false comparisons of the markers in a line."""
     for marker in ALL.finditer(line):
         try:
             rows = chosen(*marker.groups()[1:], results)
@@ -156,7 +156,7 @@ def written_like(text, value):
 
 
 def with_runs(line, number, results, wrong):
-    """The line with what its RUN markers stand for."""
+    """The line with the values of its RUN markers filled in."""
     done, at = "", 0
     for marker in RUN.finditer(line):
         before = line[at : marker.start()]
@@ -176,7 +176,7 @@ def with_runs(line, number, results, wrong):
 
 
 def checked(text, results):
-    """(the text with the tables' numbers, what is wrong with it line by line)."""
+    """Returns the text with the tables' numbers, and its faults line by line."""
     lines, wrong = [], []
 
     def made(marker):

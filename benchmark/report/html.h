@@ -5,19 +5,19 @@
 
 namespace spring_workbench::benchmark {
 
-/// `text` without markup.
+/// Escapes `text` for HTML.
 std::string escaped(const std::string& text);
 
-/// RFC 4648.
+/// Base64 encoding (RFC 4648).
 std::string base64(const std::string& bytes);
 
-/// A table from CSV, header line first; cells may be quoted. A cell "PASS" or "FAIL" is coloured.
+/// Writes a table from CSV with a header line; cells may be quoted. "PASS" and "FAIL" are coloured.
 void add_table(const std::string& csv, std::ostream& out);
 
-/// A table that opens on a click.
+/// Writes a table that opens on a click.
 void add_folded_table(const std::string& title, const std::string& csv, std::ostream& out);
 
-/// A PNG file as part of the page; nothing where `path` is empty.
+/// Embeds a PNG file in the page; nothing if `path` is empty.
 void add_picture(const std::string& path, const std::string& caption, std::ostream& out);
 
 }  // namespace spring_workbench::benchmark

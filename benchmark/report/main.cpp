@@ -2,8 +2,9 @@
 // report [--quick] --shard I/N [--queue DIR] > PART
 // report [--out DIR] --merge PART...
 // report [--quick] [--out DIR] --scene SCENE (--bag FILE | --motion FILE...) [--settings FILE]
-// Error against run time of our integrators, shape models and the peers that were found,
-// and the stability map, as CSV, pictures, one page and a table of verdicts; or that of a recording of one's own.
+//
+// Measures error against run time of our integrators, shape models and the peers that were found, and the stability
+// map; writes CSV, pictures, one page and a table of verdicts. Or does so for a recording of the user.
 #include <iostream>
 
 #include "benchmark/report/options.h"

@@ -13,18 +13,18 @@ namespace {
 constexpr const char* kWhere = "command line";
 
 Shard shard_of(const std::string& text) {
-  constexpr std::size_t kMost = 10000;
+  constexpr std::size_t kMax = 10000;
   Shard shard;
   char slash = 0, rest = 0;
   const bool digits = text.find_first_not_of("0123456789/") == std::string::npos && text.size() < 12;
   if (!digits || std::sscanf(text.c_str(), "%zu%c%zu%c", &shard.index, &slash, &shard.count, &rest) != 3 ||
-      slash != '/' || shard.index < 1 || shard.index > shard.count || shard.count > kMost) {
+      slash != '/' || shard.index < 1 || shard.index > shard.count || shard.count > kMax) {
     validation::refuse(kWhere, "--shard", text, "I/N with 1 <= I <= N <= 10000");
   }
   return shard;
 }
 
-/// Where the path behind an argument that is about a recording goes; null for other arguments.
+/// The option that takes the path after an argument about a recording; null for other arguments.
 std::string* path_of_recording(const std::string& argument, ReportOptions& options) {
   if (argument == "--scene") return &options.scene;
   if (argument == "--bag") return &options.bag;

@@ -8,14 +8,14 @@
 
 namespace spring_workbench::benchmark {
 
-/// What `report` was asked for.
+/// Options of `report`.
 struct ReportOptions {
-  bool quick = false;              ///< few scenes and settings, no stability counts; when merging as the parts say
-  std::string out = "report";      ///< folder to write to; made where it is not there
-  std::optional<Shard> shard;      ///< it alone is measured, and what comes out goes to the standard output
-  std::string queue;               ///< folder, of all shards: they take units as they come; empty: every N-th one
+  bool quick = false;          ///< few scenes and settings, no stability counts; when merging, as in the parts
+  std::string out = "report";  ///< output folder, created if it does not exist
+  std::optional<Shard> shard;  ///< the only shard to measure; its results go to standard output
+  std::string queue;  ///< folder shared by all shards, which then take units from a queue; empty: every N-th unit
   std::vector<std::string> parts;  ///< files of all shards, to be merged; empty: none
-  /// A recording of the user's own, to be reported on in place of the rest: as `replay` takes it.
+  /// A recording of the user to report on instead of everything else, with the options of `replay`.
   std::string scene, bag, settings;
   std::vector<std::string> motions;
 
@@ -27,7 +27,7 @@ struct ReportOptions {
 /// [--settings FILE]`.
 ReportOptions parse_report_options(int argc, char** argv);
 
-/// Makes the folder where it is not there. Throws InputError where it cannot be made or written.
+/// Creates the folder if it does not exist. Throws InputError if it cannot be created or written to.
 void make_folder(const std::string& folder);
 
 }  // namespace spring_workbench::benchmark

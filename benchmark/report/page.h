@@ -7,15 +7,15 @@
 
 namespace spring_workbench::benchmark {
 
-/// A part of the page.
+/// A section of the page.
 struct PageSection {
   struct Table {
     std::string title;
-    std::string csv;      ///< header line first
-    bool folded = false;  ///< opens on a click
+    std::string csv;      ///< with a header line
+    bool folded = false;  ///< whether the table opens on a click
   };
   struct Figure {
-    std::string path;  ///< of a PNG file; empty: none
+    std::string path;  ///< path of a PNG file; empty: none
     std::string caption;
   };
   std::string title;
@@ -24,14 +24,14 @@ struct PageSection {
   std::vector<Table> tables;
 };
 
-/// What the page shows.
+/// Contents of the page.
 struct PageContents {
   std::vector<RunFact> facts;
   std::string warning;  ///< empty: none
   std::vector<PageSection> sections;
 };
 
-/// One HTML page that needs no other file.
+/// A self-contained HTML page.
 std::string html_page(const PageContents& contents);
 
 }  // namespace spring_workbench::benchmark

@@ -25,7 +25,7 @@ void each_field(Head& h, Fields& fields) {
          h.facts, h.units);
 }
 
-/// What stands before the rows of a unit.
+/// Header of the rows of a unit.
 struct UnitHead {
   std::string name;
   double processor = 0.0;
@@ -80,7 +80,7 @@ ReportPart read_part(const std::string& path) {
   return part;
 }
 
-/// Adds `text` where it does not stand in `all` yet.
+/// Appends `text` unless `all` already contains it.
 void join(const std::string& text, std::string& all) {
   if (all.find(text) != std::string::npos) return;
   all += all.empty() ? text : " | " + text;

@@ -9,16 +9,16 @@
 
 namespace spring_workbench::benchmark {
 
-/// How long a report or a shard of it takes.
+/// Run time of a report or of one of its shards.
 struct RunTime {
-  double begun = 0.0, ended = 0.0;  ///< by the machine's clock [s]
+  double begun = 0.0, ended = 0.0;  ///< wall clock [s]
   double processor = 0.0;           ///< of all its processes [s]
 };
 
-/// The present, and what this process and its children have used so far; `begun` is left 0.
+/// The present time, and the processor time of this process and its children so far; `begun` is 0.
 RunTime run_time_now();
 
-/// What one shard of a report has measured, or all of them have.
+/// Results of one shard of a report, or of all of them.
 struct ReportPart {
   Shard shard;
   bool quick = false;
@@ -28,12 +28,12 @@ struct ReportPart {
   RowsByUnit rows;
 };
 
-/// As text that read_parts() reads: lines, with tabs between what stands in them; its last line says that it is all.
+/// Writes the text that read_parts() reads: lines of tab-separated fields, with an end marker in the last line.
 void write_part(const ReportPart& part, std::ostream& out);
 
-/// The parts in these files together: facts and warnings that differ stand beside each other, the time is from the
-/// first one's begin to the last one's end, and the sum of their processor times. Throws InputError for a file that is
-/// not a part or not a whole one, parts of different reports, and where a shard is missing or there twice.
+/// Merges the parts in these files: lists differing facts and warnings side by side; the time is from the earliest
+/// start to the latest end, and the processor times are summed. Throws InputError for a file that is not a complete
+/// part, for parts of different reports, or if a shard is missing or duplicate.
 ReportPart read_parts(const std::vector<std::string>& paths);
 
 }  // namespace spring_workbench::benchmark

@@ -10,13 +10,13 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-/// In the build as after installation: `report` and its script stand as far from each other.
+/// Path of the script, which is the same relative to `report` in the build and after installation.
 std::string script() {
   const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe");
   return executable.parent_path() / SPRING_WORKBENCH_TO_SHARE / "plot_report.py";
 }
 
-/// Whether the program ran and ended well.
+/// Runs a program; returns whether it succeeded.
 bool run(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));

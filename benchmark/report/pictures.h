@@ -10,12 +10,12 @@ struct Picture {
   std::string kind;
   std::string table;                ///< path of a CSV file
   std::string name;                 ///< of the PNG file
-  std::vector<std::string> others;  ///< what the kind wants besides
+  std::vector<std::string> others;  ///< further arguments of this kind
   std::string caption;
 };
 
-/// Draws into `folder` by the Python script that stands beside the package. Path of the PNG file; empty where it did
-/// not come about, which is said on stderr: without Python 3 and matplotlib (package python3-matplotlib).
+/// Draws the picture into `folder` with a Python script of the package. Returns the path of the PNG file; empty, with a
+/// message on stderr, if that fails (e.g. without Python 3 or matplotlib, package python3-matplotlib).
 std::string draw(const Picture& picture, const std::string& folder);
 
 }  // namespace spring_workbench::benchmark

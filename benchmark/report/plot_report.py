@@ -56,7 +56,7 @@ def points(rows, measure):
 
 
 def best(line):
-    """Of the points of one method, those that none of its others beats in both error and run time."""
+    """The Pareto front of the points of one method in error and run time."""
     return [p for p in line if not any(q[0] < p[0] and q[1] < p[1] for q in line)]
 
 
@@ -103,7 +103,7 @@ def our_names(rows):
 
 
 def styles(rows):
-    """Ours bold; peers thin with open markers."""
+    """Line styles: ours bold, peers thin with open markers."""
     ours = our_names(rows)
     peers = in_order(row["method"] for row in rows if row["method"] not in ours)
     style = {}
@@ -159,8 +159,8 @@ def load_name(mass):
 
 
 def rod_panel(axes, rows, name):
-    """The default method and the general ones on a rod under a tracked hand; the paper's, which does not solve the
-    equation of motion, at most so far from it: its error against its own limit plus that limit's."""
+    """The default method and the general ones on a rod under a tracked hand. The paper's method does not solve the
+    equation of motion; an upper bound of its error is drawn: its error against its own limit plus that limit's."""
     here = [row for row in rows if row["scene"] == name and row["shape"] == "linear"]
     line = points([row for row in here if row["method"] == DEFAULT], "error_over_largest_deflection")
     draw_line(axes, line, color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"ours ({DEFAULT})")
@@ -180,7 +180,7 @@ def rod_panel(axes, rows, name):
 
 
 def drag_panel(axes, rows, factor):
-    """Ours, bold, and the engines on a box that is pressed on a plane and dragged; dotted where it cannot turn."""
+    """A box pressed on a plane and dragged, by us (bold) and the engines; dotted if the box cannot turn."""
     here = [r for r in rows if r["finite"] == "1" and float(r["stiffness_factor"]) == factor]
     ours = ("stop", "dynamic")
     for i, method in enumerate(in_order(row["method"] for row in rows)):
@@ -206,7 +206,7 @@ def drag_panel(axes, rows, factor):
 
 
 def overview(table, picture, drags):
-    """As wide as a page of text, in letters that can be read there."""
+    """As wide as a page of text, with legible letters."""
     rows, contact_rows = by_step(read(table)), read(drags)
     figure, panels = pyplot.subplots(2, 3, figsize=(11.0, 8.9))
     names = (("soft_light", "stiff_light"), ("soft_heavy", "stiff_heavy"))
@@ -346,7 +346,7 @@ def share_panel(axes, share, columns, lines):
 
 
 def shares(rows, line_of, column_of):
-    """Of the cells that hold, by line and column, and how many hold of how many."""
+    """The fraction of cells that pass, by row and column, and the numbers."""
     held, cells = defaultdict(int), defaultdict(int)
     for row in rows:
         place = line_of(row), column_of(row)
@@ -364,7 +364,7 @@ def amount(value):
 
 
 def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
-    """Steps that met a stop or were done by the fallback, by mass and stiffness, in per cent."""
+    """Percentage of steps that reached a stop or were taken by the fallback, by mass and stiffness."""
     counted, steps = defaultdict(float), defaultdict(float)
     for row in rows:
         place = float(row["mass"]), float(row["stiffness_factor"])
@@ -390,7 +390,7 @@ def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
 
 
 def stability(table, picture, extremes=None):
-    """First the cells that hold, then what steps met, each a panel per integrator; contact is last."""
+    """Draws first the cells that pass, then stops and fallbacks, with one panel per integrator; contact is last."""
     rows = read(table)
     shape = rows[0]["shape"]
     rows = [row for row in rows if row["shape"] == shape]

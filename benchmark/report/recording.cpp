@@ -29,7 +29,7 @@ std::string shell_word(const std::string& word) {
   return text + '\'';
 }
 
-/// What one run of replay wrote and said.
+/// Output files and text of one run of replay.
 struct Replayed {
   std::vector<ReplayedPose> poses;
   std::string json;
@@ -51,11 +51,11 @@ class Replay {
     command << command_ << " --set integrator=" << integrator << " --set step=" << step << " --set tolerance=0 2>&1";
     FILE* pipe = popen(command.str().c_str(), "r");
     if (pipe == nullptr) throw std::runtime_error("cannot run replay");
-    std::string said;
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) said += static_cast<char>(c);
+    std::string output;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
     const int status = pclose(pipe);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(said);
-    Replayed replayed{read_replayed(csv_), said};
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(output);
+    Replayed replayed{read_replayed(csv_), output};
     std::filesystem::remove(csv_);
     std::filesystem::remove(std::filesystem::path(csv_).replace_extension(".fork.csv"));
     return replayed;
@@ -118,11 +118,11 @@ RecordingTable measure_recording(const ReportOptions& options, std::ostream& log
       log << integrator << ", step " << step << " s\n";
       const Replayed run = replay.run(integrator, step);
       const PoseDistance distance = largest_distance(run.poses, reference.poses);
-      const auto told = [&](const char* key) { return number_in_json(run.json, key); };
+      const auto field = [&](const char* key) { return number_in_json(run.json, key); };
       table.rows.push_back({integrator, step, distance.position, distance.angle,
-                            1e6 * told("wall_time") / told("simulated_time"), std::lround(told("steps")),
-                            std::lround(told("steps_fallback")), std::lround(told("steps_blocked")),
-                            std::lround(told("steps_rejected"))});
+                            1e6 * field("wall_time") / field("simulated_time"), std::lround(field("steps")),
+                            std::lround(field("steps_fallback")), std::lround(field("steps_blocked")),
+                            std::lround(field("steps_rejected"))});
     }
   }
   return table;

@@ -37,7 +37,7 @@ void print(const std::vector<Verdict>& verdicts, std::ostream& out) {
   }
 }
 
-/// All that is to be measured.
+/// Everything to be measured.
 struct Plan {
   explicit Plan(bool quick)
       : scenes(error_table_plan(quick)),
@@ -74,8 +74,8 @@ Measurements measure(const Plan& plan, const std::vector<const Method*>& methods
   return measured;
 }
 
-/// Tables, pictures and the page. The shards, or this process so far, took `measuring`; `begun`: since when this
-/// process has done what is not in that [s].
+/// Writes tables, pictures and the page. `measuring`: time taken by the shards or by this process so far; `begun`:
+/// start of the work of this process that is not included in that [s].
 void write_report(Measurements measured, const RunTime& measuring, const RunTime& begun, PageContents page,
                   const std::string& folder, std::ostream& out, std::ostream& log) {
   const std::string header = as_csv_header(page.facts);

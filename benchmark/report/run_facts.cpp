@@ -26,7 +26,7 @@ std::string machine() {
   return processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " processors";
 }
 
-/// Load average of the last minute; negative where it is not known.
+/// Load average of the last minute; negative if unknown.
 double load_average() {
   double average[1];
   return getloadavg(average, 1) == 1 ? average[0] : -1.0;

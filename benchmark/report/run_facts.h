@@ -7,7 +7,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// One line about a run: what it is about, and the fact.
+/// A fact about a run: its name and value.
 struct RunFact {
   std::string name;
   std::string value;
@@ -17,13 +17,14 @@ void each_field(RunFact& f, Fields& fields) {
   fields(f.name, f.value);
 }
 
-/// Machine, its load now, compiler, flags, date, command, peers found and not found: what a figure must come with.
+/// Machine, its present load, compiler, flags, date, command, peers found and not found: what must accompany every
+/// number.
 std::vector<RunFact> run_facts(const std::string& command, const Peers& peers);
 
 /// The program's name and its arguments.
 std::string command_of(int argc, char** argv);
 
-/// What to say of run times that are measured now: empty where the load average is at most 0.5 a processor.
+/// Warning about run times measured now; empty if the load average is at most 0.5 per processor.
 std::string load_warning();
 
 /// The facts as `# name: value` lines.

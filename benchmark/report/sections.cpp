@@ -228,7 +228,7 @@ std::vector<PageSection> page_sections(const Measurements& measured, double elas
       [&] { return costs; },
       [&] { return times_section(measured.unit_times); }};
   std::vector<PageSection> made(sections.size());
-  parallel_for(sections.size(), [&](std::size_t i) { made[i] = sections[i](); });  // pictures take their time
+  parallel_for(sections.size(), [&](std::size_t i) { made[i] = sections[i](); });  // drawing pictures takes long
   return made;
 }
 

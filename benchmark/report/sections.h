@@ -8,17 +8,17 @@
 
 namespace spring_workbench::benchmark {
 
-/// Paths of the CSV files that pictures are drawn from.
+/// Paths of the CSV files from which pictures are drawn.
 struct Tables {
   std::string scenes, rods, elastica, map, extremes, drags, impacts, world_steps;
 };
 
-/// The page's sections but that of the verdicts, with pictures drawn into `folder`. `elastica_difference`: as
+/// The sections of the page except the verdicts, with pictures drawn into `folder`. `elastica_difference`: result of
 /// elastica_check().
 std::vector<PageSection> page_sections(const Measurements& measured, double elastica_difference, const Tables& tables,
                                        const std::string& folder);
 
-/// The first of them all.
+/// The first section: the verdicts.
 PageSection verdicts_section(const std::vector<Verdict>& judged);
 
 }  // namespace spring_workbench::benchmark

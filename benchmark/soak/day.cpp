@@ -21,16 +21,16 @@ using live::Command;
 using simulation::Simulation;
 
 constexpr double kTick = 1.0 / 30.0;                        // [s] between the samples of a station
-constexpr long kWait = 90, kPressed = 15;                   // samples, before a path begins
+constexpr long kWait = 90, kPressed = 15;                   // samples before a path starts
 constexpr double kFork = 0.2;                               // [m] from the handle to the tip
-constexpr double kOutOfReach = 1.5;                         // [m] from the middle of the bench
-constexpr double kReach = 0.4;                              // [m] that a recorded path is scaled to where it is longer
+constexpr double kOutOfReach = 1.5;                         // [m] from the centre of the bench
+constexpr double kReach = 0.4;                              // [m] to which a longer recorded path is scaled
 constexpr double kFaultEvery = 20.0, kChangeEvery = 5.0;    // [s] on average
 constexpr std::int64_t kBegin = 1'700'000'000'000'000'000;  // [ns]
 
 std::int64_t nanoseconds(double s) { return std::llround(1e9 * s); }
 
-/// A recording in stations' time, its first pose the origin with the fork down.
+/// A recording resampled to the rate of a station, relative to its first pose, with the fork pointing down.
 std::vector<RigidTransform> path_of(const std::string& file) {
   std::vector<RigidTransform> path;
   const auto source = motion_files::open_motion(file);
@@ -49,7 +49,7 @@ std::vector<RigidTransform> path_of(const std::string& file) {
   return path;
 }
 
-/// What came over the line.
+/// A record received over the line.
 struct Record {
   Vector3d p;
   Quaterniond q;
@@ -58,13 +58,13 @@ struct Record {
 
 struct Hand {
   const std::vector<RigidTransform>* path = nullptr;
-  long next = 0;                      ///< below 0: waits at the first pose
-  Vector3d begin = Vector3d::Zero();  ///< of the path, in world
+  long next = 0;                      ///< index of the next pose; below 0: waits at the first one
+  Vector3d begin = Vector3d::Zero();  ///< start of the path, in world
   double silent_until = 0.0, garbage_until = 0.0, doubled_until = 0.0;
   motion::StampedStream<Record> stream{1.0};
   std::vector<std::pair<std::int64_t, Record>> waiting;
   std::int64_t zero = 0;
-  bool pressed = false;  ///< as the node knows it
+  bool pressed = false;  ///< state of the button known to the node
 };
 
 class Day {
@@ -75,7 +75,7 @@ class Day {
     begin_life();
   }
 
-  /// How far it came.
+  /// Progress, for messages.
   std::string where() const { return std::to_string(t_) + " s, life " + std::to_string(result_.lives); }
   DayResult run() {
     out_ << "hours,samples,lives,faults,changes,resident_MB\n";
@@ -117,7 +117,7 @@ class Day {
     replayer_ = std::make_unique<live::Replayer>([](const std::string& path) { return scene::load_scene(path); },
                                                  simulation::SimulationSettings());
   }
-  /// The replay comes to the same state, the sum of which is kept.
+  /// Ends a life: the replay must reach the same state, whose hash is accumulated.
   void end_life() {
     if (!replayer_) keep_journal();
     compare();
@@ -127,10 +127,10 @@ class Day {
     result_.mismatches += replayer_->changes().mismatches.size();
     replayer_.reset();
   }
-  /// The node ends with the old master, and its successor goes on from the checkpoint.
+  /// The node exits with the old master, and its successor resumes from the checkpoint.
   void new_master() {
     end_life();
-    sender_set_ = host_set_;  // by more than max_age apart, no stream begins
+    sender_set_ = host_set_;  // no stream can start with clocks further apart than max_age
     std::string text;
     checkpoint_->forget();
     checkpoint_->keep([&](const std::string& kept) { text = kept; });
@@ -162,7 +162,7 @@ class Day {
     ++result_.faults[name];
     happen();
   }
-  /// The wall clocks go on, the steady clock does not.
+  /// Advances the wall clocks, but not the steady clock.
   void suspend(double seconds) {
     host_set_ += seconds;
     sender_set_ += seconds;
@@ -177,8 +177,8 @@ class Day {
     if (chance(0.5)) command.hand = random_() % hands_.size();
     command.tool = std::array{tools::Tool::spring, tools::Tool::spring_fork, tools::Tool::direct}[random_() % 3];
     command.on = chance(0.3);
-    command.of_fork.dofs = rod::ForkDofs{chance(0.8), chance(0.8), chance(0.8)};
-    command.of_fork.stretch_stiffness = uniform(200.0, 1000.0);
+    command.fork_change.dofs = rod::ForkDofs{chance(0.8), chance(0.8), chance(0.8)};
+    command.fork_change.stretch_stiffness = uniform(200.0, 1000.0);
     command.edit.action = simulation::ObjectEdit::Action::mass;
     command.edit.object = movable(random_()).name;
     command.edit.mass = uniform(0.2, 2.0);
@@ -188,7 +188,7 @@ class Day {
     if (chance(0.1)) return runner_->restart();
     try {
       runner_->change("day", random_command());
-    } catch (const validation::InputError&) {  // nothing is held, or nothing to take back
+    } catch (const validation::InputError&) {  // nothing is held, or there is nothing to undo
     }
   }
   const scene::Body& movable(std::size_t number) const {
@@ -199,8 +199,8 @@ class Day {
     return *bodies.at(number % bodies.size());
   }
 
-  /// A new recording begins with the tip in an object, where that is now. What was flung out of reach is put back, and
-  /// the clutch is off.
+  /// Starts a new recording with the tip in an object at its present position. Returns objects that were thrown out of
+  /// reach, and switches the clutch off.
   void take_path(std::size_t number) {
     Hand& hand = hands_[number];
     hand.path = &paths_[random_() % paths_.size()];
@@ -277,7 +277,7 @@ class Day {
     events.emplace_back(pose);
   }
 
-  /// The journal so far through the replayer, which throws where its state is another one.
+  /// Replays the journal so far; the replayer throws if its state differs.
   void compare() {
     if (!replayer_) return;
     runner_->note_state();

@@ -5,7 +5,7 @@
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/simulation/simulation.h"
 
-/// live_day: a day of a live run with faults at random, and its replay.
+/// live_day: a day-long live session with random faults, and its replay.
 int main(int argc, char** argv) {
   using namespace spring_workbench;
   using benchmark::judge;

@@ -4,7 +4,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// Says whether a law holds; 1 where it does not.
+/// Prints whether a requirement holds; returns 1 if it does not.
 inline int judge(bool law, const char* text) {
   std::cout << (law ? "PASS  " : "FAIL  ") << text << '\n';
   return law ? 0 : 1;

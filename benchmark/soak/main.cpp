@@ -14,7 +14,7 @@ constexpr double kDrift = 1e-4;  // m
 
 }  // namespace
 
-/// soak: memory, energy and rest over many steps of an assembly that begins again and again (doc/limits.md).
+/// soak: memory, energy and rest over many steps of a repeated assembly (doc/limits.md).
 int main(int argc, char** argv) {
   using namespace spring_workbench;
   using benchmark::judge;

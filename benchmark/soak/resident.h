@@ -6,7 +6,7 @@
 
 namespace spring_workbench::benchmark {
 
-/// Memory of this process that is resident [bytes].
+/// Resident memory of this process [bytes].
 inline double resident_bytes() {
   std::ifstream file("/proc/self/statm");
   double total = 0.0, resident = 0.0;

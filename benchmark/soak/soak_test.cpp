@@ -32,7 +32,7 @@ TEST(Soak, TheSameSeedGivesTheSameBitsAndAnotherOneDoesNot) {
   EXPECT_GT(one.largest_energy, 0.0);
 }
 
-/// Six minutes of a live run with faults, in which nothing is lost, and its replay.
+/// Six minutes of a live session with faults, in which nothing is lost, and its replay.
 TEST(Day, WithFaultsOfEachKindNothingIsLostAndTheHashIsTheReplays) {
   DayOptions options;
   options.scene = test_support::checkout("scenes/mini_world.urdf");

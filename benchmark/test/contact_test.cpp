@@ -1,4 +1,4 @@
-// The contact part of the report: its scenes against what they must give.
+// The contact part of the report: its scenes against exact results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ TEST(Drag, OursLagAsCoulombsLawSaysWithOneStepASample) {
 }
 
 TEST(Drag, EveryEngineIsGivenTheSameScene) {
-  // With small steps, and nothing that rocks, all come to the same lag: they have the scene's springs, weight and
+  // With small steps and without rocking, all methods agree on the lag, since they have the same springs, weight and
   // friction.
   const Peers peers = all_peers();
   for (const DragMethod& method : peers.drags) {

@@ -21,7 +21,7 @@ double error_at(const Method& method, const Scenario& scene, int steps_per_inter
   return run.finite ? output_error(scene, reference_solution(scene), run.outputs) : 1e300;
 }
 
-/// Of the integrator alone, which asks for the hand's motion where it likes, and not for poses.
+/// Error of the integrator alone, which evaluates the hand's motion at any time instead of using poses.
 double integrator_error(const std::string& name, const Scenario& scene, int steps_per_interval) {
   const dynamics::HeldBody body = held_body(rod_case(scene), "bushing");
   const auto integrator =
@@ -34,7 +34,7 @@ double integrator_error(const std::string& name, const Scenario& scene, int step
       [&](double t) -> Vector3d {
         const dynamics::HandleForcing handle = body.forcing(hand, t);
         if (scene.kind != SceneKind::torsion) return body.object(handle, state).X.translation();
-        return {0.0, 0.0, math::log_so3(handle.X_WH.linear()).z() + state.q[0]};  // which no half turn ends
+        return {0.0, 0.0, math::log_so3(handle.X_WH.linear()).z() + state.q[0]};  // not limited to half a turn
       });
   return run.finite ? output_error(scene, reference_solution(scene), run.outputs) : 1e300;
 }
@@ -59,7 +59,7 @@ TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
       // With a single spring the paper's load, the mean over a step, gives one order more.
       const int order = method->name() == "paper" ? 2 : order_of(method->name());
       if (order > 4) continue;
-      // So coarse that the error is far above the references' own, so fine that explicit methods are stable.
+      // Coarse enough that the error is far above that of the references, fine enough that explicit methods are stable.
       const int steps = order < 2 ? 32 : method->name() == "rosenbrock" ? 1 : scene.kind == SceneKind::six_dof ? 4 : 2;
       const double coarse = integrator_error(method->name(), scene, steps),
                    fine = integrator_error(method->name(), scene, 2 * steps);
@@ -96,7 +96,7 @@ TEST(OurMethods, TheErrorOfExponentialFallsWithEachOfTwentySteps) {
 }
 
 TEST(OurMethods, ThoseOfHighOrderHaveItToo) {
-  // From 20 to 5 ms; what the hand's jerk sets off at the start costs part of an order.
+  // From 20 to 5 ms; the transient of the hand's jerk at the start costs part of an order.
   const Scenario scene = six_dof_scene(1.0);
   int seen = 0;
   for (const MethodPtr& method : our_methods()) {
@@ -130,8 +130,8 @@ TEST(OurMethods, ExponentialIsAccurateInOneCoordinateWhateverStiffnessStepAndDam
 }
 
 TEST(OurMethods, AHandThatIsAFunctionIsMetBetterTheMoreOfItsPosesAreGiven) {
-  // What Simulation makes of the motion between two poses is not the function's; on soft springs what comes of that
-  // falls with the fourth power of their distance.
+  // Simulation interpolates between two poses, which differs from the function; on soft springs this error falls with
+  // the fourth power of the interval.
   for (const MethodPtr& method : our_methods()) {
     if (method->name() != "exponential") continue;
     for (const Scenario& scene : {stretch_scene(1e2), torsion_scene(1.0), six_dof_scene(1.0)}) {
@@ -143,8 +143,8 @@ TEST(OurMethods, AHandThatIsAFunctionIsMetBetterTheMoreOfItsPosesAreGiven) {
 }
 
 TEST(OurMethods, ASampledHandIsSimulatedToTheReferenceOnItsMotionAndTheRestIsNotForStepsToLower) {
-  // The reference knows nothing of Simulation; what the hand does between samples is known with the square of their
-  // interval, but for the first, whose velocity is that of its chord.
+  // The reference is independent of Simulation. The hand between samples is known to second order in their interval,
+  // except for the first one, whose velocity is that of the chord.
   for (const double factor : {1.0, 100.0}) {
     const Scenario slow = with_sampled_hand(six_dof_scene(factor));
     Scenario fast = slow;

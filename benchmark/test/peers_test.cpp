@@ -56,8 +56,8 @@ TEST(Peers, EachFixedStepPeerConvergesToTheSceneWhoseLawItHasWithItsOrder) {
 }
 
 TEST(Peers, OtherRotationParametrisationsAgreeWithTheSceneWhereTheSpringIsStiff) {
-  // The deflection is a hundredth of a radian: parametrisations differ by its square. Bullet's constraint damps the
-  // velocities of the two centres instead of the grip's, and is another law at any stiffness.
+  // The deflection is a hundredth of a radian, and parametrisations differ by its square. Bullet's constraint damps the
+  // velocities of the two centres instead of that of the grip, which is a different law at any stiffness.
   const Scenario scene = six_dof_scene(100.0);
   const ReferenceSolution reference = reference_solution(scene);
   for (const MethodPtr& method : peers().methods) {
@@ -82,7 +82,7 @@ TEST(Peers, GeneralSolversAreAsGoodAsTheirToleranceOverTheHandsMotionHoweverItIs
         if (method->knob() != Method::Knob::tolerance) continue;
         const RunResult run = run_isolated(*method, scene, tolerance, {}, 60.0);
         ASSERT_TRUE(run.finite) << method->name() << scene.name << scene.stiffness_factor;
-        // ARKODE's polynomial between the steps of a stiff method is of lower order than they.
+        // ARKODE's interpolation between the steps of a stiff method has a lower order than the steps.
         const double allowed = method->name() == "solver_arkode_dirk" ? 1e5 : 1e3;
         EXPECT_LT(output_error(scene, reference, run.outputs), allowed * tolerance)
             << method->name() << ' ' << scene.name << ' ' << scene.stiffness_factor;
@@ -93,7 +93,7 @@ TEST(Peers, GeneralSolversAreAsGoodAsTheirToleranceOverTheHandsMotionHoweverItIs
   EXPECT_EQ(runs, 6U * 2U * 8U);
 }
 
-/// Of a solver on the oscillator y'' = −y, asked between the ends of its steps.
+/// Error of a solver for the oscillator y'' = −y, evaluated between the ends of its steps.
 double oscillator_error(const std::function<std::unique_ptr<OdeSolver>(int, OdeSolver::Rates)>& make, double tolerance,
                         double every) {
   const auto solver = make(2, [](double, const double* y, double* rate) {
@@ -155,7 +155,7 @@ TEST(Solvers, RadauAndTheImplicitOnesDoNotNeedShortStepsWhereTheEquationIsStiff)
 }
 
 TEST(SteppingLoop, LongStepsAreInterpolatedToTheirOrder) {
-  // A polynomial of degree five comes back wherever it is asked for.
+  // A polynomial of degree five is reproduced everywhere.
   std::vector<Vector3d> values;
   const auto quintic = [](double t) { return Vector3d(std::pow(t - 3.0, 5), t, 1.0); };
   for (int i = 0; i < 12; ++i) values.push_back(quintic(i));
@@ -185,7 +185,7 @@ TEST(Peers, AWeldToAMocapBodyLagsByTheDampersShareOfTheHandsSpeed) {
   }
 }
 
-/// A method that ends in the way given.
+/// A method that fails in the given manner.
 class Broken : public Method {
  public:
   explicit Broken(bool aborts) : aborts_(aborts) {}
@@ -214,7 +214,7 @@ TEST(Method, RunsAreRepeatedUntilThereAreEnoughOfThemAndEnoughTimeButNoLonger) {
   EXPECT_TRUE(wants_another(three, 2, 0.06));
   EXPECT_TRUE(wants_another(three, 1000, 0.049));
   EXPECT_FALSE(wants_another(three, 3, 0.05));
-  EXPECT_FALSE(wants_another(three, 1, 1.01 * kMostSeconds));
+  EXPECT_FALSE(wants_another(three, 1, 1.01 * kMaxSeconds));
   EXPECT_FALSE(wants_another({}, 1, 0.0));
 }
 

@@ -106,7 +106,7 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
   }
 }
 
-/// The tables and pages that the document on the report names.
+/// The tables and pages that the report's documentation lists.
 std::vector<std::string> promised_files() {
   std::ifstream readme(test_support::checkout("benchmark/README.md"));
   std::vector<std::string> names;
@@ -180,7 +180,7 @@ TEST(Report, ARecordingHasALineForEachIntegratorAndStepWhoseErrorFallsWithIt) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Report, ARecordingThatReplayRefusesIsToldInItsWords) {
+TEST(Report, ARecordingThatReplayRefusesIsReportedWithItsMessage) {
   const Outcome outcome = report("--scene /nowhere.urdf --motion /nowhere.tum --out .");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_NE(outcome.output.find("/nowhere.tum: cannot be read"), std::string::npos) << outcome.output;

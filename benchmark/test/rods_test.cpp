@@ -50,7 +50,7 @@ TEST(RodCases, HandsAreTheSameFromTheSameSeedAndOthersFromAnother) {
 }
 
 TEST(RodCases, ReferenceOfAStretchingForkOnAHandAtRestIsTheExactOscillator) {
-  // The handle points up and rests: one spring under its weight, from zero extension.
+  // The handle points up and rests: a single spring under the weight, starting from zero extension.
   for (const double zeta : {0.0, 0.1, 1.0, 3.0}) {
     RodCase one = case_called("stretch_only", 1.0);
     one.fork.damping_ratio = {zeta, zeta, zeta};
@@ -82,7 +82,7 @@ TEST(RodCases, ReferenceAgreesWithRungeKuttaAtATinyStepInEveryShape) {
   }
 }
 
-/// SUNDIALS CVODE at 1e-12 on the equation of motion, begun anew at every sample.
+/// SUNDIALS CVODE at 1e-12 on the equation of motion, restarted at every sample.
 std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& shape) {
   const dynamics::HeldBody body = held_body(one, shape);
   const int n = body.size();
@@ -187,7 +187,7 @@ TEST(RodTable, WhatIsComparedIsTheLargestErrorOfPositionAngleAndHalfWay) {
     if (!row.finite) continue;
     EXPECT_EQ(row.error, std::max({row.position_error, row.error_between, row.angle_error * farthest_point(one)}));
     EXPECT_GE(row.angle_error, 0.0);
-    // Of two steps in 20 ms one ends half-way: the other run is the same, looked at more often.
+    // With two steps in 20 ms one ends halfway, so the other run is the same with more outputs.
     if (row.step == 0.01) {
       EXPECT_GE(row.error_between, row.position_error * (1.0 - 1e-6)) << row.method;
     }
@@ -247,7 +247,7 @@ TEST(Elastica, RodsComeToTheExactSolutionForSmallLoadsAndMoreTermsAreNearer) {
   EXPECT_LT(error("linear"), 0.1 * error("constant"));
 }
 
-TEST(StabilityMap, HandsRestWhenTheySayAndComeInOrder) {
+TEST(StabilityMap, SamplesOfTheHandsComeInOrderAndRestAsPlanned) {
   const StabilityPlan plan = stability_plan(true);
   for (std::size_t i = 0; i < plan.hands.size() * plan.tails.size(); ++i) {
     const MapHand hand = plan.hands[i % plan.hands.size()];
@@ -279,7 +279,7 @@ TEST(StabilityMap, HandsRestWhenTheySayAndComeInOrder) {
 
 StabilityCell cell_with(double omega_step, MapTail tail) {
   StabilityCell cell;
-  cell.step = 0.001;                     // the leap of 1 m within 20 ms does not compress so stiff a spring to nothing
+  cell.step = 0.001;                     // a jump of 1 m within 20 ms does not fully compress such a stiff spring
   cell.families = {true, false, false};  // one spring: ω² = k / m
   cell.damping_ratio = 1.0;
   cell.stiffness_factor = std::pow(omega_step / cell.step, 2) * cell.mass / 2000.0;
@@ -287,8 +287,8 @@ StabilityCell cell_with(double omega_step, MapTail tail) {
   return cell;
 }
 
-/// The exact motion of 2 kg on one undamped spring, along z, whose end the handle moves: at the times of `looks`, what
-/// a watch makes of it. `error` is added to the energy of motion at each look, and what is said of it.
+/// An EnergyWatch on the exact motion of 2 kg on one undamped spring along z, whose end the handle moves. `error` is
+/// added to the energy at each call, and reported as an estimate if `is_told`.
 EnergyWatch watched(double omega, double h, double tremor, double error, bool is_told) {
   constexpr double mass = 2.0, gravity = 9.81, interval = 0.02;
   std::mt19937 random(5);
@@ -300,7 +300,7 @@ EnergyWatch watched(double omega, double h, double tremor, double error, bool is
     track.push(sample);
   }
   EnergyWatch watch(mass, 0.2);
-  double x = 0.1, v = 0.0;  // of the body, the spring at rest where it is where the handle is
+  double x = 0.1, v = 0.0;  // of the body; the spring is unstretched if the body is at the handle
   const int steps = static_cast<int>(std::lround(interval / h));
   const auto look = [&](double t, const motion::MotionSegment& handle) {
     const double stretch = x - handle.in_own_axes(t).X.translation().z();
@@ -312,7 +312,7 @@ EnergyWatch watched(double omega, double h, double tremor, double error, bool is
     const double t = i * h;
     const motion::MotionSegment& handle = track.segment(t + 0.5 * h);
     if (i == 0) look(t, handle);
-    // The handle's cubic drives it: a particular solution of the same degree, and the oscillation beside it.
+    // Driven by the handle's cubic: a particular solution of the same degree plus the oscillation.
     const motion::OwnAxesMotion begin = handle.in_own_axes(t), end = handle.in_own_axes(t + h);
     const double a0 = begin.a_W.z(), a1 = end.a_W.z(), w2 = omega * omega;
     const auto particular = [&](const motion::OwnAxesMotion& m, double a) {
@@ -342,7 +342,7 @@ TEST(EnergyWatch, SeesNothingInAnExactMotionHoweverFastItSwingsAndTheHandleTremb
   EXPECT_TRUE(watched(5.0, 0.002, 1e-3, 0.0, false).is_certain());
 }
 
-TEST(EnergyWatch, SeesWhatIsGainedBeyondTheHandlesWorkUnlessTheStepsSaySoAndItIsLittle) {
+TEST(EnergyWatch, DetectsEnergyGainedBeyondTheHandlesWork) {
   for (const double omega : {100.0, 3e4}) {
     const double most = 0.5 * 2.0 * omega * omega * 0.01;  // [J]; in a hundred steps a thousandth of that, or a tenth
     EXPECT_GT(watched(omega, 0.02, 1e-6, 2e-5 * most, false).growth(), 5e-4) << omega;
@@ -391,7 +391,7 @@ TEST(StabilityMap, ManyHalvedStepsInALongFallAddNoEnergy) {
   cell.seconds = 1.0;
   EXPECT_LT(run_cell("implicit_euler", "linear", cell).energy_growth, 1e-10);
   EXPECT_LT(run_cell("exponential", "linear", cell).energy_growth, 1e-10);
-  // Its estimate, a tenth of the difference of two halves to the whole, may be several times too small.
+  // Its estimate, a tenth of the difference between two half steps and a whole one, may be several times too small.
   EXPECT_LT(run_cell("rosenbrock", "linear", cell).energy_growth, 1e-4);
 }
 
@@ -459,7 +459,7 @@ TEST(StabilityMap, TheFullMapGoesOnWhereItWasStopped) {
   const auto lines_of = [&](const std::string& name) {
     std::ifstream in(folder.path(name));
     std::set<std::string> lines;
-    // but for the processor time, which is last
+    // without the processor time, which is last
     for (std::string line; std::getline(in, line);) lines.insert(line.substr(0, line.rfind('\t')));
     return lines;
   };

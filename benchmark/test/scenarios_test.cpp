@@ -27,7 +27,7 @@ auto derivative(const Function& f, double t) {
   return ((8.0 * (f(t + h) - f(t - h)) - (f(t + 2.0 * h) - f(t - 2.0 * h))) / (12.0 * h)).eval();
 }
 
-/// The object in world by RK4 on Newton's and Euler's equations under `bushing_load`: shares neither coordinates nor
+/// The object in world by RK4 on the Newton–Euler equations under `bushing_load`; shares neither coordinates nor
 /// integrator with the reference.
 std::vector<Vector3d> outputs_by_world_rk4(const Scenario& scene, int steps_per_interval) {
   using State = Eigen::Matrix<double, 13, 1>;

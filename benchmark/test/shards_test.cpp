@@ -1,4 +1,4 @@
-// A report's work dealt to shards and merged is the whole report, but for run times.
+// A report divided into shards and merged equals the whole report, except for run times.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 using test_support::TemporaryFolder;
 
-/// Writes a file, and tells its path.
+/// Writes a file and returns its path.
 std::string written(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
   folder.write(name, text);
   return folder.path(name);
@@ -43,7 +43,7 @@ struct Work {
   std::vector<MethodPtr> ours = our_methods();
   std::vector<const Method*> methods;
 
-  /// Little of each; no line ends by its run time.
+  /// A little of each kind of work; no curve ends by its run time.
   Work() {
     scenes.scenes.resize(2);
     scenes.steps_per_output = {1, 4};
@@ -61,7 +61,7 @@ struct Work {
     map.hands = {MapHand::jump};
   }
 
-  /// All tables as text, run times left out.
+  /// All tables as text, without run times.
   std::string tables(Units& units) const {
     std::vector<ErrorRow> rows = error_table(methods, scenes, units);
     const std::vector<ErrorRow> more = rod_table(rods, units);
@@ -105,7 +105,7 @@ TEST(Shards, MergedTheyAreTheWholeHoweverManyThereAre) {
                                        {},
                                        units.kept()})));
     }
-    EXPECT_EQ(idle > 0, count == 50);  // more shards than work: some have none, and are merged as all others
+    EXPECT_EQ(idle > 0, count == 50);  // more shards than work: some have none, and are merged like the others
     ReportPart parts = read_parts(paths);
     EXPECT_EQ(parts.time.begun, 100.0 - static_cast<double>(count));
     EXPECT_EQ(parts.time.ended, 100.0 + static_cast<double>(count));

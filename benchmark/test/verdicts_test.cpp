@@ -91,7 +91,8 @@ TEST(Verdicts, OnlyTheDefaultIntegratorIsOurs) {
 }
 
 TEST(Verdicts, APeerWhoseLineBeginsBelowTheTargetIsComparedAtItsFirstError) {
-  // Its cheapest run is 1e4 times better than asked: ours must be so, too, which takes it ten times as long.
+  // Its cheapest run is 1e4 times better than required, so ours is compared at that error, which takes ten times as
+  // long.
   for (const double time : {90.0, 110.0}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
@@ -159,7 +160,7 @@ TEST(Verdicts, WhoDoesNotArriveHasLostAndIfNobodyDoesNothingIsSaid) {
 }
 
 TEST(Verdicts, APeerThatWasStoppedIsSlowerThanWhereItsLineEndsAndNoMoreIsClaimed) {
-  // Stopped at 900 or 1,100 µs/s, still coming down: of 50 times ours, 20 µs/s, only the second is shown.
+  // Stopped at 900 or 1,100 µs/s while still falling: only the second proves a ratio of 50 to our 20 µs/s.
   for (const double stopped : {900.0, 1100.0}) {
     for (const bool given_up : {true, false}) {
       Measurements measured;
@@ -176,7 +177,7 @@ TEST(Verdicts, APeerThatWasStoppedIsSlowerThanWhereItsLineEndsAndNoMoreIsClaimed
       EXPECT_EQ(verdict.result, stopped > 1000.0 ? kPass : kFail) << verdict.measured;
       EXPECT_NE(verdict.measured.find("slower than"), std::string::npos) << verdict.measured;
       if (given_up) continue;
-      // A line that goes on without gain has ended: it does not arrive.
+      // A curve that has levelled off does not reach the error.
       rows.push_back(rows.back());
       rows.back().error *= 1.1;
       EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "the best engine"), kPass);
@@ -252,7 +253,7 @@ TEST(Verdicts, APeerWhoseOwnLimitIsNotKnownWellEnoughIsNotCompared) {
     }
     const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "the best engine");
     EXPECT_EQ(verdict.result, told ? kPass : kNone) << verdict.measured;
-    // Beside one that is known, it is left out.
+    // Next to one that is known, it is excluded.
     add_line("ode_erp_cfm", 1.0, 100.0, measured.scenes);
     EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "the best engine"), kFail);
   }

@@ -21,7 +21,7 @@ using std::chrono::duration;
 using std::chrono::steady_clock;
 
 constexpr double kDropout = 0.5;  // [s]
-constexpr double kLearn = 10.0;   // [s] left out at the beginning
+constexpr double kLearn = 10.0;   // [s] excluded at the start
 
 class Spread {
  public:
@@ -39,7 +39,7 @@ class Spread {
   double mean_ = 0.0, squares_ = 0.0;
 };
 
-/// Jitter of a stream, by the moments of measuring where they are known, else by the times between neighbours.
+/// Jitter of a stream, relative to the true times of measurement if these are known, otherwise from the intervals.
 class Jitter {
  public:
   explicit Jitter(bool truth_known) : truth_known_(truth_known) {}
@@ -65,7 +65,7 @@ class Jitter {
     const double usual = intervals_.empty() ? 0.0 : intervals_[intervals_.size() / 2].receipts;
     for (const Interval& interval : intervals_) {
       if (interval.stamps > 1.5 * usual) ++breaks_;
-      // Records are missing there, or are found to be missing.
+      // Records are missing here, or are assumed lost.
       if (truth_known_ || std::max(interval.receipts, interval.stamps) > 1.5 * usual) continue;
       before_.add(interval.receipts / std::sqrt(2.0));
       after_.add(interval.stamps / std::sqrt(2.0));
@@ -84,7 +84,7 @@ class Jitter {
   hand_input::SampleGate gate_{hand_input::InputSettings(), kDropout};
   double begin_ = -1.0, last_received_ = -1.0, last_stamp_ = -1.0;
   Spread before_, after_;
-  std::size_t breaks_ = 0;  ///< of the stamps: more than one and a half intervals from one to the next
+  std::size_t breaks_ = 0;  ///< gaps of stamps: more than one and a half intervals
   std::vector<Interval> intervals_;
 };
 
@@ -92,7 +92,7 @@ motion::StationSample received(const motion::StylusSample& sample, double t) {
   return {1, t, sample.X.translation(), Quaterniond(sample.X.linear()), false, ' '};
 }
 
-/// Samples whose stamps go forwards: a line keeps the order of records.
+/// The samples with increasing stamps, since a line preserves the order of records.
 std::vector<motion::StylusSample> in_order(const std::string& path) {
   std::vector<motion::StylusSample> samples;
   for (const motion::StylusSample& sample : read_samples(path)) {
@@ -107,8 +107,8 @@ void as_recorded(const std::string& path, std::ostream& out) {
   jitter.write(file_name(path), "as recorded", out);
 }
 
-/// The samples of a motion, measured evenly at its mean rate, on a line that delays: `delay` [s] of an exponential
-/// distribution, and until the next poll [s] of an adapter, if there is one.
+/// The samples of a motion, measured evenly at its mean rate, over a line with delays: exponentially distributed with
+/// mean `delay` [s], plus the wait for the next poll of an adapter with period `poll` [s], if there is one.
 void delayed(const std::string& path, double delay, double poll, const std::string& line, std::ostream& out) {
   const std::vector<motion::StylusSample> samples = in_order(path);
   const double interval = (samples.back().t - samples.front().t) / static_cast<double>(samples.size() - 1);
@@ -126,8 +126,8 @@ void delayed(const std::string& path, double delay, double poll, const std::stri
   jitter.write(file_name(path), line, out);
 }
 
-/// The simulator on a thread of its own, at 120 records a second from each station; x of a hand says when it was
-/// measured.
+/// The simulator in a separate thread, at 120 records per second and station; the x coordinate of a hand encodes the
+/// time of measurement.
 void simulated(int stations, std::ostream& out) {
   constexpr double length = 40.0, rate = 120.0, speed = 0.02;  // [s], [Hz] of a station, [m/s]
   std::vector<motion::StylusSample> way(2);

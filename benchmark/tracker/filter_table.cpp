@@ -30,8 +30,8 @@ std::vector<motion::PoseSample> samples_of(const std::string& path) {
   return samples;
 }
 
-/// RMS distance of `given` from the track `later` [s] after each sample, by default at it; samples near its ends and
-/// gaps are left out.
+/// RMS distance of `given` from the track `later` [s] after each sample (default: at the sample); excludes samples near
+/// ends and gaps.
 double distance(const std::vector<motion::PoseSample>& given, motion::PoseTrack& track, double later = 0.0) {
   double sum = 0.0;
   int count = 0;

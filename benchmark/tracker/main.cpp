@@ -7,7 +7,7 @@
 #include "prediction_table.h"
 #include "spring_workbench/validation/input_error.h"
 
-/// Tables of doc/tracker.md as CSV on standard output.
+/// Writes the tables of doc/tracker.md as CSV to standard output.
 int main(int argc, char** argv) {
   using namespace spring_workbench;
   const std::vector<std::string> words(argv + 1, argv + argc);

@@ -7,7 +7,7 @@
 
 namespace spring_workbench {
 
-/// All samples of a motion file or script. Throws InputError where it cannot be read.
+/// All samples of a motion file or script. Throws InputError if it cannot be read.
 inline std::vector<motion::StylusSample> read_samples(const std::string& path) {
   std::vector<motion::StylusSample> samples;
   const auto source = motion_files::open_motion(path);

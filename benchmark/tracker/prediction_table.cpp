@@ -18,7 +18,7 @@ using scene::ContactMode;
 
 constexpr double kFork = 0.2;                                            // [m] from the handle to the tip
 constexpr std::array<double, 5> kAhead = {0.0, 0.01, 0.02, 0.03, 0.05};  // [s]
-constexpr double kInTheAir = 0.03;                                       // [m] of the box above the bench, at first
+constexpr double kInTheAir = 0.03;  // [m] initial height of the box above the bench
 
 /// The scene of one box, with the box at the tip of a fork that points down.
 scene::Scene held_at(const Vector3d& handle, scene::Scene scene, ContactMode contact) {
@@ -28,7 +28,7 @@ scene::Scene held_at(const Vector3d& handle, scene::Scene scene, ContactMode con
   return scene;
 }
 
-/// The motion from its first sample in the air on, its median height that at which the box touches the bench.
+/// The motion from its first sample in the air, shifted such that the box touches the bench at the median height.
 std::vector<motion::PoseSample> above_the_bench(const std::string& path, double seconds) {
   std::vector<motion::PoseSample> samples;
   std::vector<double> heights;
@@ -70,7 +70,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// A hand that holds the box, the copies that go ahead, and what was displayed and is not committed yet.
+/// A hand that holds the box, the copies that are advanced ahead, and the displayed poses that are not committed yet.
 class Run {
  public:
   Run(const std::vector<motion::PoseSample>& samples, const scene::Scene& scene, ContactMode contact)
@@ -100,7 +100,7 @@ class Run {
     return settings;
   }
 
-  /// Compares all that was displayed for the time up to there, along the committed path.
+  /// Commits up to `stop` and compares with the poses displayed for these times.
   void commit(double stop) {
     const double before = simulation_.time();
     const bodies::BodyState from = simulation_.objects()[0];

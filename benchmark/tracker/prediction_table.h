@@ -6,12 +6,12 @@
 
 namespace spring_workbench {
 
-/// How far what is displayed is from what is later committed for the same time, as CSV. The box of a scene
-/// (single_box.urdf) is held on each motion by the default fork; at the arrival of each sample the simulation is
-/// committed as far as its input is complete, and copies of it go ahead to that sample (0 ms) and beyond it. Compared
-/// is the held box. Contact none: in the air; stop: above a bench at such a height that the hand is as often below it
-/// as above. The tracked body is turned so that the fork points down at first. `seconds` [s]: the part of each motion.
-/// Throws InputError where a motion cannot be read.
+/// Error of the displayed pose against the pose committed later for the same time, as CSV. The default fork holds the
+/// box of a scene (single_box.urdf) on each motion. When a sample arrives, the simulation is committed as far as its
+/// input is complete, and copies of it are advanced to that sample (0 ms) and beyond. The pose of the held box is
+/// compared. Contact none: in the air; stop: above a bench at the median height of the hand. The tracked body is turned
+/// such that the fork points down at first. `seconds`: part of each motion that is used [s]. Throws InputError if a
+/// motion cannot be read.
 void write_prediction_table(const std::string& scene_path, const std::vector<std::string>& motions, double seconds,
                             std::ostream& out);
 

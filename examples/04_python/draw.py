@@ -20,7 +20,7 @@ END = 1.0  # [s]
 
 
 def simulation_of(scene, integrator, step):
-    """The box in a hand that moves back and forth sideways, with 50 samples a second."""
+    """Simulation of the box in a hand that moves sideways, back and forth, sampled at 50 Hz."""
     settings = {
         "contact": "none",
         "grasp.object": "box",

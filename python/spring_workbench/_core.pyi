@@ -9,7 +9,7 @@ _Floats = npt.NDArray[np.float64]
 _Bools = npt.NDArray[np.bool_]
 
 class InputError(ValueError):
-    """Invalid input. The message names the field, what is allowed and what was given; the old state stays."""
+    """Invalid input. The message names the field, what is allowed and what was given; the state is unchanged."""
 
 class SettingDescription:
     """Description of one setting."""
@@ -212,19 +212,19 @@ class Report:
         """Largest bound of the run's error in angle [rad]."""
     @property
     def steps_unbounded(self) -> int:
-        """Steps for which there is no bound, in contact for example."""
+        """Number of steps without a bound, e.g. in contact."""
     @property
     def energy_added(self) -> float:
-        """Energy added by the integration beyond hand, gravity, contact and damping [J]."""
+        """Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J]."""
     @property
     def stiffest_omega_dt(self) -> float:
         """Angular frequency of the stiffest mode times the step."""
     @property
     def steps_blocked(self) -> int:
-        """Number of steps in which contact admitted no motion of an object."""
+        """Number of steps in which contact did not allow an object to move."""
     @property
     def steps_unsolved(self) -> int:
-        """Number of steps near other movable objects that were taken although a contact missed its law."""
+        """Number of steps near other movable objects that were accepted although a contact violated its law."""
     @property
     def time_lost(self) -> float:
         """Time during which a body did not follow its equation of motion [s]."""
@@ -249,8 +249,8 @@ class State:
 class Simulation:
     """Simulation of a scene with hands and their tools.
 
-    It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus, at
-    most the setting `styluses` - 1; any other raises InputError."""
+    It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus,
+    at most the setting `styluses` - 1; any other raises InputError."""
     def __init__(self, scene: Scene, settings: Settings = ...) -> None:
         """Starts a simulation of `scene`. Raises InputError if settings and scene do not match."""
     def push_stylus(self, t: float, pose: npt.ArrayLike, hand: int = 0) -> bool:
@@ -269,8 +269,8 @@ class Simulation:
     def advance(self, t_end: float) -> Report:
         """Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report.
 
-        If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act. Raises
-        InputError if t_end is not finite."""
+        If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act.
+        Raises InputError if t_end is not finite."""
     @property
     def time(self) -> float:
         """Simulated time [s]."""
@@ -294,17 +294,17 @@ class Simulation:
         """True for each object that touches another body or the bench; shape (n,)."""
     @property
     def asleep(self) -> _Bools:
-        """True for each object that is at rest and costs nothing until something moves it; shape (n,)."""
+        """True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,)."""
     @property
     def contacts(self) -> List[Contact]:
         """Contact points at the present time: a list of Contact."""
     def fork(self, hand: int = 0) -> Fork:
-        """Returns the state of the tool in a hand, also if it is no fork."""
+        """Returns the state of the tool in a hand, whether or not it is a fork."""
     def save(self) -> State:
         """Returns the whole state."""
     def restore(self, state: State) -> None:
-        """Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes nothing,
-        if the state has other bodies, another contact mode, number of styluses or shape of the fork."""
+        """Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes
+        nothing, if the state has other bodies, another contact mode, number of styluses or shape of the fork."""
     @property
     def state_hash(self) -> str:
         """Hash of the whole state: 16 hexadecimal digits."""
@@ -350,7 +350,7 @@ class Simulation:
         remove, mass [kg] or friction. Raises InputError if the object or a value is not allowed."""
 
     def reset(self) -> None:
-        """Puts all objects back to their initial poses; nothing is held, and all samples are forgotten."""
+        """Returns all objects to their initial poses; nothing is held, and all samples are forgotten."""
 
 def load_scene(path: str, roots: Sequence[str] = ...) -> Scene:
     """Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.

@@ -46,8 +46,8 @@ std::size_t OperatorHands::nearest(const Vector3d& p_W, const Numbers& others) c
 }
 
 double OperatorHands::arrival(const Hand& hand, const RigidTransform& X_WH, double t_from) {
-  const Vector3d path = X_WH.translation() - hand.X_WH_to.translation();
-  const double turn = math::log_so3(hand.X_WH_to.linear().transpose() * X_WH.linear()).norm();
+  const Vector3d path = X_WH.translation() - hand.X_WH_goal.translation();
+  const double turn = math::log_so3(hand.X_WH_goal.linear().transpose() * X_WH.linear()).norm();
   return t_from + 0.1 + fitts_slope * std::log2(1.0 + std::hypot(path.norm(), lever * turn) / fitts_width);
 }
 
@@ -57,11 +57,11 @@ double OperatorHands::reach(const Numbers& hands, const std::function<RigidTrans
   for (const std::size_t number : hands) t_to = std::max(t_to, arrival(hands_[number], X_WH(number), t_from));
   for (const std::size_t number : hands) {
     Hand& hand = hands_[number];
-    RigidTransform X_WH_to = X_WH(number);
-    const double distance = (X_WH_to.translation() - hand.X_WH_to.translation()).norm();
-    X_WH_to.translation() += settings_.aim_scatter * distance * random_.next_vector();
-    hand.X_WH_from = t_from < hand.t_to - time_slack ? hand.X_WH : hand.X_WH_to;
-    hand.X_WH_to = X_WH_to;
+    RigidTransform X_WH_goal = X_WH(number);
+    const double distance = (X_WH_goal.translation() - hand.X_WH_goal.translation()).norm();
+    X_WH_goal.translation() += settings_.aim_scatter * distance * random_.next_vector();
+    hand.X_WH_from = t_from < hand.t_to - time_slack ? hand.X_WH : hand.X_WH_goal;
+    hand.X_WH_goal = X_WH_goal;
     hand.t_from = t_from;
     hand.t_to = t_to;
   }
@@ -71,7 +71,7 @@ double OperatorHands::reach(const Numbers& hands, const std::function<RigidTrans
 motion::StylusSample OperatorHands::sample(std::size_t number, double t) {
   Hand& hand = hands_[number];
   const double u = hand.t_to > hand.t_from ? std::clamp((t - hand.t_from) / (hand.t_to - hand.t_from), 0.0, 1.0) : 1.0;
-  hand.X_WH = motion::minimum_jerk_pose(hand.X_WH_from, hand.X_WH_to, u);
+  hand.X_WH = motion::minimum_jerk_pose(hand.X_WH_from, hand.X_WH_goal, u);
   motion::StylusSample sample;
   sample.t = t;
   sample.button = hand.pressed;

@@ -32,7 +32,7 @@ Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings&
   SimulatedOperator person(simulation.scene(), operator_settings, [&] { return operator_view(simulation); });
   Trial trial;
   std::vector<bool> pressed(person.hands(), false);
-  double before = 0.0;  // time of the samples before these [s]
+  double before = 0.0;  // time of the previous samples [s]
   while (const std::optional<motion::StylusSample> sample = person.next()) {
     if (sample->t > time_limit) break;
     feed.push_stylus(*sample, sample->hand);

@@ -2,16 +2,18 @@
 
 #include <cstddef>
 
-// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
+// Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
 
 namespace spring_workbench::config {
 
-/// [bytes] of a value in a message; longer ones are cut. Test: YamlFields.LongValuesAreCutInMessages.
+/// Maximum length of a value in a message [bytes]; longer ones are truncated. Test:
+/// YamlFields.LongValuesAreCutInMessages.
 constexpr std::size_t longest_value = 80;
-/// Lists and maps in each other; more are refused, as are those that an alias makes endless. Test:
-/// LoadYamlFile.RefusesWhatAliasesMakeEndlessOrImmense.
-constexpr int most_deep = 100;
-/// Of a file, aliases followed; more are refused. Test: LoadYamlFile.RefusesWhatAliasesMakeEndlessOrImmense.
-constexpr long most_values = 1000000;
+/// Maximum nesting depth of lists and maps. A deeper file, or one that an alias makes endless, is refused. Test:
+/// LoadYamlFile.RefusesEndlessOrHugeAliases.
+constexpr int max_nesting_depth = 100;
+/// Maximum number of values in a file, with aliases expanded. A larger file is refused. Test:
+/// LoadYamlFile.RefusesEndlessOrHugeAliases.
+constexpr long max_values = 1000000;
 
 }  // namespace spring_workbench::config

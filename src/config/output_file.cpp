@@ -13,12 +13,12 @@
 namespace spring_workbench::config {
 namespace {
 
-/// A renamed file survives the end of the machine only when its folder is on the disk, too.
+/// Flushes a folder: a rename survives a crash of the machine only if the folder is on disk, too.
 bool sync_folder(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool synced = fsync(descriptor) == 0 || errno == EINVAL;  // a file system that has nothing to bring there
+  const bool synced = fsync(descriptor) == 0 || errno == EINVAL;  // EINVAL: a file system without fsync for folders
   close(descriptor);
   return synced;
 }
@@ -32,7 +32,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     throw validation::InputError(path_ + ": cannot be written: it is a folder");
   in_place_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
   written_path_ = in_place_ ? path_ : path_ + ".part" + std::to_string(getpid());
-  if (!in_place_) std::remove(written_path_.c_str());  // of a process of the same number that was killed
+  if (!in_place_) std::remove(written_path_.c_str());  // left by a killed process with the same id
   file_ = std::fopen(written_path_.c_str(), in_place_ ? "we" : "wxe");
   check(file_ != nullptr);
 }

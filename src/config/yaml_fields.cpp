@@ -12,7 +12,7 @@
 namespace spring_workbench::config {
 namespace {
 
-/// The node as the user wrote it, shortened to one line.
+/// The text of a node as written by the user, shortened to one line.
 std::string node_text(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "";
   YAML::Emitter out;
@@ -23,7 +23,7 @@ std::string node_text(const YAML::Node& node) {
   return text.size() <= longest_value ? text : text.substr(0, longest_value) + "…";
 }
 
-/// yaml-cpp throws when a node that is not there is asked for its kind.
+/// Like IsScalar(), which throws for an undefined node.
 bool is_scalar(const YAML::Node& node) { return node.IsDefined() && node.IsScalar(); }
 
 std::string place(const YAML::Node& node, const std::string& where) {
@@ -119,12 +119,13 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
 
 namespace {
 
-/// Refuses what an alias makes endless or immense: `&a [*a]`, and lists of lists of aliases.
+/// Refuses files that aliases make endless or huge: `&a [*a]`, or lists of lists of aliases.
 void check_extent(const YAML::Node& node, const std::string& path, int depth, long& values) {
-  if (depth > most_deep)
-    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " levels deep");
-  if (++values > most_values)
-    throw validation::InputError(path + ": size: must be at most " + std::to_string(most_values) + " values");
+  if (depth > max_nesting_depth)
+    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(max_nesting_depth) +
+                                 " levels deep");
+  if (++values > max_values)
+    throw validation::InputError(path + ": size: must be at most " + std::to_string(max_values) + " values");
   if (node.IsSequence()) {
     for (const YAML::Node& entry : node) check_extent(entry, path, depth + 1, values);
   } else if (node.IsMap()) {
@@ -140,7 +141,7 @@ void check_extent(const YAML::Node& node, const std::string& path, int depth, lo
 YAML::Node load_yaml_file(const std::string& path) {
   std::ifstream file(path);
   std::ostringstream text;
-  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // of an empty file nothing can be copied
+  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // copying an empty file would fail
   if (!file.is_open() || file.bad() || text.fail()) {
     throw validation::InputError(path + ": cannot be read; give a readable YAML file");
   }

@@ -24,21 +24,21 @@ double CadenceClock::stamp(double receipt) {
   return stamp_;
 }
 
-bool CadenceClock::is_astray() const {
+bool CadenceClock::has_wrong_interval() const {
   return quickest_.size() == buckets && std::abs(slope_) >= largest_drift * interval_;
 }
 
 void CadenceClock::recount(double receipt) {
   const double lateness = receipt - first_ - k_ * interval_ - line(k_);
   recent_.push_back({receipt, lateness});
-  const std::size_t many = static_cast<std::size_t>(std::max(late_in_a_row, late_for / interval_));
+  const std::size_t many = static_cast<std::size_t>(std::max(late_in_a_row, late_duration / interval_));
   if (recent_.size() > many) recent_.pop_front();
-  if (k_ - counted_on_at_ > recount_doubt / interval_) counted_on_ = 0.0;
+  if (k_ - skipped_at_ > recount_window / interval_) skipped_intervals_ = 0.0;
   double samples = 0.0;
   if (receipt - receipt_ > std::max(stream_silence, 4.0 * interval_)) {
     samples = std::round(lateness / interval_);
-  } else if (lateness < -0.5 * interval_) {  // too quick: what was counted on may not have been lost but held up
-    samples = -std::min(std::round(-lateness / interval_), counted_on_);
+  } else if (lateness < -0.5 * interval_) {  // too early: records that were counted as lost were only delayed
+    samples = -std::min(std::round(-lateness / interval_), skipped_intervals_);
   } else if (recent_.size() == many && is_even(recent_)) {
     const auto quickest = std::min_element(recent_.begin(), recent_.end(),
                                            [](const Receipt& a, const Receipt& b) { return a.late < b.late; });
@@ -46,12 +46,12 @@ void CadenceClock::recount(double receipt) {
   }
   if (samples == 0.0) return;
   k_ += samples;
-  counted_on_ = std::max(0.0, counted_on_ + samples);
-  counted_on_at_ = k_;
+  skipped_intervals_ = std::max(0.0, skipped_intervals_ + samples);
+  skipped_at_ = k_;
   recent_.clear();
 }
 
-/// Whether they come at about the device's rate, and are no burst.
+/// Whether the receipts arrive at about the device's rate and not in a burst.
 bool CadenceClock::is_even(const std::deque<Receipt>& receipts) const {
   const double due = interval_ * static_cast<double>(receipts.size() - 1);
   return receipts.back().t - receipts.front().t > 0.75 * due;

@@ -99,7 +99,7 @@ std::optional<FastrakRecord> FastrakLayout::decode(std::string_view bytes) const
   record.error = bytes[2];
   std::map<Kind, Numbers> known;
   std::optional<bool> button;
-  // The finer of two writings of the same, and whether they are the same.
+  // Keeps the value with the finer resolution of two that must agree; returns whether they do.
   const auto merge = [&](Kind kind, const std::optional<Numbers>& read) {
     if (!read) return false;
     const auto [entry, is_first] = known.try_emplace(kind, *read);
@@ -192,7 +192,7 @@ std::vector<int> fastrak_output_list(int station, FastrakFormat format, bool eul
   const int orientation = euler ? 4 : 11;
   std::vector<int> items{2, orientation};
   if (button) items.push_back(16);
-  if (redundant) {  // the second writing after the first one's end: two halves of different records do not agree
+  if (redundant) {  // the second copy follows the first: halves of two different records do not agree
     items.insert(items.end(), {52, orientation + 50});
     if (button) items.push_back(66);
     items.insert(items.begin() + station, 0);

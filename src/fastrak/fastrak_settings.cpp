@@ -21,7 +21,7 @@ std::vector<int> read_stations(const YAML::Node& node, const std::string& where,
   return stations;
 }
 
-/// A list, or one station.
+/// A list of stations, or a single one.
 std::vector<int> read_used_stations(const YAML::Node& node, const std::string& where) {
   const auto stations = node.IsScalar()
                             ? std::vector<int>{config::read_integer(node, where, "stations", 1, kFastrakStations)}
@@ -33,7 +33,7 @@ std::vector<int> read_used_stations(const YAML::Node& node, const std::string& w
   return stations;
 }
 
-/// true: station 1, where it is in use; false: none; or a list of some of `stations`.
+/// true: station 1, if it is in use; false: none; or a list of some of `stations`.
 std::vector<int> read_styluses(const YAML::Node& node, const std::string& where, const std::vector<int>& stations) {
   if (node.IsScalar()) return config::read_bool(node, where, "stylus") ? std::vector<int>{1} : std::vector<int>();
   std::set<int> free(stations.begin(), stations.end());

@@ -31,9 +31,9 @@ std::vector<int> list_of(const FastrakSettings& settings, int station) {
 }  // namespace
 
 std::vector<std::string> fastrak_set_up(const FastrakSettings& settings) {
-  // Resume output if it was paused, end a command that was cut, stop the stream.
+  // Resumes paused output, terminates an incomplete command, stops the stream.
   std::vector<std::string> portions{"\x11\rc"};
-  std::string on, off;  // the last active station cannot be switched off: first on, then off
+  std::string on, off;  // the last active station cannot be switched off, so first switch on, then off
   for (int station = 1; station <= kFastrakStations; ++station) {
     const bool wanted = has(settings.stations, station);
     (wanted ? on : off) += "l" + std::to_string(station) + (wanted ? ",1\r" : ",0\r");
@@ -45,7 +45,7 @@ std::vector<std::string> fastrak_set_up(const FastrakSettings& settings) {
                        hemisphere_text(settings.hemisphere) + "\rI" + s + ",0\r");
     portions.push_back("R" + s + "\rr" + s + ",0,0,0\r");  // the transmitter's own frame
   }
-  std::string modes;  // 0: else the switch turns the stream off
+  std::string modes;  // mode 0: in mode 1 the switch would stop the stream
   for (const int station : settings.styluses) modes += "e" + std::to_string(station) + ",0\r";
   portions.push_back(modes + (settings.format == FastrakFormat::binary ? "f" : "F"));
   return portions;
@@ -66,7 +66,7 @@ FastrakSource::~FastrakSource() {
   try {
     if (port_) port_->write("c");
   } catch (const std::exception&) {
-    // The port is gone, and the stream with it.
+    // The port has disappeared, and the stream with it.
   }
 }
 
@@ -88,7 +88,7 @@ std::vector<motion::StationSample> FastrakSource::read(double timeout) {
   return std::exchange(samples_, {});
 }
 
-steady_clock::duration FastrakSource::patience(double s) const {
+steady_clock::duration FastrakSource::time_allowed(double s) const {
   return seconds(s + line_bytes * 10.0 / settings_.baud);
 }
 
@@ -102,7 +102,7 @@ void FastrakSource::close(const std::string& why) {
   port_.reset();
   problem_ = why;
   state_ = State::closed;
-  deadline_ = steady_clock::now() + seconds(look_again_after);
+  deadline_ = steady_clock::now() + seconds(retry_interval);
 }
 
 void FastrakSource::begin_set_up() {
@@ -115,19 +115,19 @@ void FastrakSource::begin_set_up() {
 }
 
 void FastrakSource::send_portion() {
-  port_->write(set_up_[portion_] + "S");  // its answer says that the commands before it are done
-  deadline_ = steady_clock::now() + patience(answer_time);
+  port_->write(set_up_[portion_] + "S");  // its reply confirms that the preceding commands are done
+  deadline_ = steady_clock::now() + time_allowed(answer_time);
 }
 
 void FastrakSource::listen(Time until) {
   const Time begin = steady_clock::now();
-  // If this thread itself is late, the line gets a little more time before it counts as silent.
-  const double least = begin >= deadline_ ? late_reader_chance : 0.0;
+  // If this thread itself is late, the line gets some extra time before it counts as silent.
+  const double least = begin >= deadline_ ? late_reader_grace : 0.0;
   const double wait = std::max(least, duration<double>(until - begin).count());
   const std::string bytes = port_->read(wait);
   const Time now = steady_clock::now();
   if (bytes.empty()) {
-    if (now >= deadline_) give_up_waiting();
+    if (now >= deadline_) handle_timeout();
     return;
   }
   answered_ = true;
@@ -139,15 +139,15 @@ void FastrakSource::listen(Time until) {
     std::visit([&](const auto& m) { take(m, now); }, message);
   }
   stamp(samples_before, now);
-  if (now >= deadline_) give_up_waiting();
+  if (now >= deadline_) handle_timeout();
 }
 
-/// Records that were read together came one after the other: evenly since the last reading, and no earlier than the
-/// line lets them.
+/// Assigns times of receipt to records that were read together: spread evenly since the last reading, but no faster
+/// than the line can transmit them.
 void FastrakSource::stamp(std::size_t first, Time now) {
   const double end = duration<double>(now.time_since_epoch()).count();
   const std::size_t count = samples_.size() - first;
-  double line_time = 0.0;  // of the records behind
+  double line_time = 0.0;  // transmission time of the later records [s]
   for (std::size_t i = count; i-- > 0;) {
     motion::StationSample& sample = samples_[first + i];
     const double share = static_cast<double>(i + 1) / static_cast<double>(count);
@@ -163,7 +163,7 @@ void FastrakSource::take(const FastrakRecord& record, Time now) {
   if (record.error != ' ') ++counters_["records with a warning"];
   has_streamed_ = true;
   attempts_ = 0;
-  deadline_ = now + patience(source_silence);
+  deadline_ = now + time_allowed(source_silence);
 }
 
 void FastrakSource::take(const FastrakReply& reply, Time) {
@@ -188,17 +188,17 @@ void FastrakSource::begin_stream() {
   state_ = State::streaming;
   has_streamed_ = false;
   decoder_ = FastrakDecoder(layouts_);
-  deadline_ = steady_clock::now() + patience(source_silence);
+  deadline_ = steady_clock::now() + time_allowed(source_silence);
 }
 
-void FastrakSource::give_up_waiting() {
-  problem_ = why_silent();
+void FastrakSource::handle_timeout() {
+  problem_ = reason_for_silence();
   if (state_ == State::streaming && has_streamed_) ++counters_["times the stream was lost"];
   if (++attempts_ % attempts_per_opening == 0) return close(problem_);
   begin_set_up();
 }
 
-std::string FastrakSource::why_silent() const {
+std::string FastrakSource::reason_for_silence() const {
   const std::string where = settings_.port + ": ";
   const std::string at_baud = " at " + std::to_string(settings_.baud) + " baud";
   if (state_ == State::streaming) {

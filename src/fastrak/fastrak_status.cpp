@@ -6,7 +6,7 @@
 namespace spring_workbench::fastrak {
 namespace {
 
-constexpr std::size_t kStatusLength = 53;  // without the end of line
+constexpr std::size_t kStatusLength = 53;  // without the line break
 constexpr unsigned kBinaryFlag = 1, kCentimetresFlag = 2, kContinuousFlag = 8, kOtherFlags = 0x3F4;
 
 }  // namespace

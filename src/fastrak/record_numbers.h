@@ -9,16 +9,16 @@
 
 namespace spring_workbench::fastrak {
 
-// The numbers of a FASTRAK's records.
+// Conversion of the numbers in FASTRAK records.
 
-/// ASCII, whatever the locale.
+/// Whether `c` is an ASCII digit, independent of the locale.
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Right-aligned digits with a point before the last `decimals`; the sign first or next to the digits.
+/// Reads right-aligned digits with a point before the last `decimals`; the sign is first or next to the digits.
 std::optional<double> read_fixed(std::string_view text, std::size_t decimals);
-/// Sx.xxxxxESxx and a blank.
+/// Reads the format Sx.xxxxxESxx, followed by a blank.
 std::optional<double> read_extended(std::string_view text);
-/// IEEE 754, 32 bit, least significant byte first.
+/// Reads a 32-bit IEEE 754 number, least significant byte first.
 double read_float(std::string_view bytes);
 void write_float(double value, std::string& bytes);
 

@@ -13,13 +13,13 @@ inline std::chrono::steady_clock::duration seconds(double s) {
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(s));
 }
 
-/// Why a serial port cannot be used, in one line that names it.
+/// One line that names a serial port and says why it cannot be used.
 class SerialError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// An open serial port, 8 data bits, no parity, one stop bit, no handshake, for this process alone.
+/// A serial port opened for exclusive use: 8 data bits, no parity, one stop bit, no handshake.
 class SerialPort {
  public:
   /// Throws SerialError.
@@ -27,10 +27,11 @@ class SerialPort {
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  /// Throws SerialError where the port is gone or does not take the bytes in 0.2 s.
+  /// Throws SerialError if the port has disappeared or does not accept the bytes within 0.2 s.
   void write(const std::string& bytes);
 
-  /// What has come; waits for it, at most `timeout` [s]. Throws SerialError where the port is gone.
+  /// Returns the bytes that have arrived; waits for some for at most `timeout` [s]. Throws SerialError if the port has
+  /// disappeared.
   std::string read(double timeout);
 
  private:

@@ -5,7 +5,8 @@
 namespace spring_workbench::fastrak {
 namespace {
 
-/// Slope of the least-squares line through moments at even intervals [s]; its ends alone would carry their own delays.
+/// Slope of the least-squares line through receipts at even intervals [s]; using only the two ends would be exposed to
+/// their delays.
 double mean_interval(const std::vector<double>& receipts) {
   const double middle = 0.5 * static_cast<double>(receipts.size() - 1);
   double products = 0.0, squares = 0.0;
@@ -21,11 +22,11 @@ double mean_interval(const std::vector<double>& receipts) {
 
 double StationStream::by_cadence(double received) {
   if (!even_stamps_) return received;
-  if (cadence_ && cadence_->is_astray()) cadence_.reset();  // records were lost while it was measured
+  if (cadence_ && cadence_->has_wrong_interval()) cadence_.reset();  // records were lost during the measurement
   if (cadence_) return cadence_->stamp(received);
   if (!receipts_.empty() && received - receipts_.back() > stream_silence) receipts_.clear();
   receipts_.push_back(received);
-  if (received - receipts_.front() < cadence_measured_for) return received;
+  if (received - receipts_.front() < cadence_measuring_time) return received;
   cadence_.emplace(mean_interval(receipts_));
   double stamp = received;
   for (const double receipt : receipts_) stamp = cadence_->stamp(receipt);

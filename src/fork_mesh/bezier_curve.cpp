@@ -16,7 +16,7 @@ const math::GaussLegendre<8>& rule() {
   return gauss;
 }
 
-/// Cubic Bézier curve between two poses, along their z, with arms of length `arm`.
+/// Cubic Bézier curve between two poses, tangent to their z axes, with control arms of length `arm`.
 class Bezier {
  public:
   Bezier(const RigidTransform& begin, const RigidTransform& end, double arm)
@@ -52,8 +52,8 @@ class Bezier {
   std::array<Vector3d, 4> points_;
 };
 
-/// The compensation of the length: arms with which the curve is `arc_length` long, by regula falsi (Illinois) from the
-/// third of it that a straight line has.
+/// Compensation of the length: finds the arm with which the curve is `arc_length` long by regula falsi (Illinois),
+/// starting from a third of it, the exact value for a straight line.
 double arm_for(const RigidTransform& begin, const RigidTransform& end, double arc_length) {
   const auto excess = [&](double arm) { return Bezier(begin, end, arm).length() - arc_length; };
   const double start = arc_length / 3.0, accuracy = 1e-13 * arc_length;
@@ -78,7 +78,7 @@ double arm_for(const RigidTransform& begin, const RigidTransform& end, double ar
   return b;
 }
 
-/// The curve's parameters at evenly spaced arc lengths after the first.
+/// The curve's parameters at evenly spaced arc lengths, without the first.
 std::vector<double> even_parameters(const Bezier& curve) {
   std::array<double, bezier_segments + 1> until{};  // arc length up to each segment
   for (int i = 0; i < bezier_segments; ++i) {
@@ -103,7 +103,8 @@ std::vector<double> even_parameters(const Bezier& curve) {
   return parameters;
 }
 
-/// Turns each frame about its z by its share of what is missing at the tip; the ends are the given poses.
+/// Turns each frame about its z axis by its share of the remaining twist at the tip; the end frames are the given
+/// poses.
 void spread_twist(const RigidTransform& X_WE, double twist, std::vector<RigidTransform>& stations) {
   const double missing = math::log_so3(stations.back().linear().transpose() * X_WE.linear()).z();
   const double whole = missing + 2.0 * M_PI * std::round((twist - missing) / (2.0 * M_PI));

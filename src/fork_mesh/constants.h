@@ -2,25 +2,25 @@
 
 namespace spring_workbench::fork_mesh {
 
-// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
+// Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
 
-/// Segments of the curve's parameter over which its arc length is integrated; at compile time. Fewer: a wrong length.
-/// Test: BezierCurve.HasTheRodsLengthAndItsStationsAreEvenlySpaced.
+/// Number of segments of the curve for the quadrature of its arc length; at compile time. If fewer, the length is
+/// wrong. Test: BezierCurve.HasTheRodsLengthAndItsStationsAreEvenlySpaced.
 constexpr int bezier_segments = 8;
-/// Stations of every curve; between them a full circle is off by 1e-6 of its length. Fewer: farther off. Test:
-/// ForkCurve.TheRodsIsTheRodBetweenItsStations.
+/// Number of stations of every curve; interpolation error of a full circle: 1e-6 of its length. If fewer, the error is
+/// larger. Test: ForkCurve.TheRodsIsTheRodBetweenItsStations.
 constexpr int fork_curve_stations = 65;
-/// [diameters] radius of the coil to the centre of its wire: half a diameter, by definition. Test:
+/// Radius of the coil to the centre of its wire [diameters]: half a diameter, by definition. Test:
 /// DeformedFork.TheCoilIsAsWideAsItsDiameterAndAFifthOfItThickAreTheDiscs.
 constexpr double coil_radius = 0.5;
-/// [diameters] thickness of the discs that hold the ends of the wire. Test:
+/// Thickness of the discs that hold the ends of the wire [diameters]. Test:
 /// DeformedFork.TheCoilIsAsWideAsItsDiameterAndAFifthOfItThickAreTheDiscs.
 constexpr double flange = 0.2;
 
-/// Segments of the seam that is drawn along the spring. Fewer: a spiral with corners. Test:
+/// Number of segments of the seam that is drawn along the spring. If fewer, the spiral has corners. Test:
 /// DeformedFork.TheSeamShowsTheTwist.
 constexpr int seam_segments = 40;
-/// [m] diameter of the tools that are no springs. Larger: clumsier. Test: ForkModel.EachToolHasALookOfItsOwn.
+/// Drawn diameter of rigid tools [m]. If larger, they look clumsy. Test: ForkModel.EachToolHasItsOwnAppearance.
 constexpr double rigid_diameter = 0.03;
 
 }  // namespace spring_workbench::fork_mesh

@@ -10,7 +10,7 @@
 namespace spring_workbench::fork_mesh {
 namespace {
 
-/// Derivative over one interval at station `i`: differences of fourth order.
+/// Derivative per interval at station `i`, by fourth-order differences.
 Vector3d rate_at(const std::vector<RigidTransform>& stations, std::size_t i) {
   static const double weights[5][5] = {{-25.0, 48.0, -36.0, 16.0, -3.0},
                                        {-3.0, -10.0, 18.0, -6.0, 1.0},

@@ -8,20 +8,20 @@
 namespace spring_workbench::fork_mesh {
 namespace {
 
-void check(const ForkLook& look) {
+void check(const ForkAppearance& appearance) {
   const char* const where = "fork look";
-  validation::check_number(where, "turns", look.turns, validation::between(1, 1000));
-  validation::check_number(where, "points_per_turn", look.points_per_turn, validation::between(3, 1000));
-  validation::check_number(where, "wire_sides", look.wire_sides, validation::between(3, 1000));
-  validation::check_number(where, "round_sides", look.round_sides, validation::between(3, 1000));
-  validation::check_number(where, "wire_radius", look.wire_radius, validation::positive());
-  validation::check_number(where, "shaft_radius", look.shaft_radius, validation::positive());
-  validation::check_number(where, "shaft_length", look.shaft_length, validation::positive());
-  validation::check_number(where, "prong_radius", look.prong_radius, validation::positive());
-  validation::check_number(where, "prong_gap", look.prong_gap, validation::positive());
-  validation::check_number(where, "prong_length", look.prong_length, validation::positive());
-  validation::check_number(where, "needle_length", look.needle_length, validation::positive());
-  validation::check_number(where, "ball_radius", look.ball_radius, validation::positive());
+  validation::check_number(where, "turns", appearance.turns, validation::between(1, 1000));
+  validation::check_number(where, "points_per_turn", appearance.points_per_turn, validation::between(3, 1000));
+  validation::check_number(where, "wire_sides", appearance.wire_sides, validation::between(3, 1000));
+  validation::check_number(where, "round_sides", appearance.round_sides, validation::between(3, 1000));
+  validation::check_number(where, "wire_radius", appearance.wire_radius, validation::positive());
+  validation::check_number(where, "shaft_radius", appearance.shaft_radius, validation::positive());
+  validation::check_number(where, "shaft_length", appearance.shaft_length, validation::positive());
+  validation::check_number(where, "prong_radius", appearance.prong_radius, validation::positive());
+  validation::check_number(where, "prong_gap", appearance.prong_gap, validation::positive());
+  validation::check_number(where, "prong_length", appearance.prong_length, validation::positive());
+  validation::check_number(where, "needle_length", appearance.needle_length, validation::positive());
+  validation::check_number(where, "ball_radius", appearance.ball_radius, validation::positive());
 }
 
 /// Two triangles a, b, c and a, c, d.
@@ -32,50 +32,50 @@ void add_quad(int a, int b, int c, int d, ForkModel::Triangles& triangles) {
 
 }  // namespace
 
-ForkLook look_of(const std::string& tool) {
-  using Spring = ForkLook::Spring;
-  using End = ForkLook::End;
-  ForkLook look;
-  if (tool == "spring") look.end = End::ball;
-  if (tool == "spring_probe") look.end = End::needle;
+ForkAppearance appearance_of(const std::string& tool) {
+  using Spring = ForkAppearance::Spring;
+  using End = ForkAppearance::End;
+  ForkAppearance appearance;
+  if (tool == "spring") appearance.end = End::ball;
+  if (tool == "spring_probe") appearance.end = End::needle;
   if (tool == "ray") {
-    look.spring = Spring::beam;
-    look.end = End::ball;
+    appearance.spring = Spring::beam;
+    appearance.end = End::ball;
   }
   if (tool == "direct") {
-    look.spring = Spring::none;
-    look.end = End::diamond;
-    look.shaft = false;
+    appearance.spring = Spring::none;
+    appearance.end = End::diamond;
+    appearance.shaft = false;
   }
-  const bool is_known = !(look == ForkLook()) || tool == "spring_fork";
+  const bool is_known = !(appearance == ForkAppearance()) || tool == "spring_fork";
   if (!is_known) validation::refuse("look", "tool", tool, "spring, spring_fork, spring_probe, direct or ray");
-  return look;
+  return appearance;
 }
 
 double drawn_diameter(const std::string& tool, double length, double share) {
   return tool == "direct" || tool == "ray" ? rigid_diameter : share * length;
 }
 
-ForkModel::ForkModel(const ForkLook& look) : look_(look) {
-  check(look);
-  if (look.shaft) make_shaft();
+ForkModel::ForkModel(const ForkAppearance& appearance) : appearance_(appearance) {
+  check(appearance);
+  if (appearance.shaft) make_shaft();
   make_end();
-  if (look.spring == ForkLook::Spring::coil) {
-    make_wire(look.turns, look.turns * look.points_per_turn, coil_radius);
+  if (appearance.spring == ForkAppearance::Spring::coil) {
+    make_wire(appearance.turns, appearance.turns * appearance.points_per_turn, coil_radius);
     make_wire(0, seam_segments, coil_radius);
   }
-  if (look.spring == ForkLook::Spring::beam) make_wire(0, 2, 0.0);
+  if (appearance.spring == ForkAppearance::Spring::beam) make_wire(0, 2, 0.0);
 }
 
 std::size_t ForkModel::vertex_count() const {
-  return shaft_.size() + end_.size() + wire_.size() * static_cast<std::size_t>(look_.wire_sides);
+  return shaft_.size() + end_.size() + wire_.size() * static_cast<std::size_t>(appearance_.wire_sides);
 }
 
 void ForkModel::make_shaft() {
-  const double rim = coil_radius + look_.wire_radius;
-  revolve({{0.0, -look_.shaft_length},
-           {look_.shaft_radius, -look_.shaft_length},
-           {look_.shaft_radius, -2.0 * flange},
+  const double rim = coil_radius + appearance_.wire_radius;
+  revolve({{0.0, -appearance_.shaft_length},
+           {appearance_.shaft_radius, -appearance_.shaft_length},
+           {appearance_.shaft_radius, -2.0 * flange},
            {rim, -flange},
            {rim, 0.0},
            {0.0, 0.0}},
@@ -83,22 +83,24 @@ void ForkModel::make_shaft() {
 }
 
 void ForkModel::make_end() {
-  const double rim = coil_radius + look_.wire_radius, tip = look_.prong_length, ball = look_.ball_radius;
-  switch (look_.end) {
-    case ForkLook::End::prongs:
+  const double rim = coil_radius + appearance_.wire_radius, tip = appearance_.prong_length,
+               ball = appearance_.ball_radius;
+  switch (appearance_.end) {
+    case ForkAppearance::End::prongs:
       revolve({{0.0, 0.0}, {rim, 0.0}, {rim, flange}, {0.0, flange}}, 0.0, end_);
-      for (const double centre : {-look_.prong_gap, 0.0, look_.prong_gap}) {
-        const double radius = look_.prong_radius;
+      for (const double centre : {-appearance_.prong_gap, 0.0, appearance_.prong_gap}) {
+        const double radius = appearance_.prong_radius;
         revolve({{0.0, 0.5 * flange}, {radius, 0.5 * flange}, {radius, 0.7 * tip}, {0.0, tip}}, centre, end_);
       }
       return;
-    case ForkLook::End::needle:
-      return revolve({{0.0, -look_.needle_length}, {0.6 * coil_radius, -look_.needle_length}, {0.0, 0.0}}, 0.0, end_);
-    case ForkLook::End::diamond:
+    case ForkAppearance::End::needle:
+      return revolve({{0.0, -appearance_.needle_length}, {0.6 * coil_radius, -appearance_.needle_length}, {0.0, 0.0}},
+                     0.0, end_);
+    case ForkAppearance::End::diamond:
       return revolve({{0.0, -2.0 * ball}, {ball, 0.0}, {0.0, 2.0 * ball}}, 0.0, end_);
-    case ForkLook::End::ball: {
+    case ForkAppearance::End::ball: {
       std::vector<Eigen::Vector2d> half_circle;
-      const int sectors = look_.round_sides / 2;
+      const int sectors = appearance_.round_sides / 2;
       for (int i = 0; i <= sectors; ++i) {
         const double angle = M_PI * i / sectors;
         half_circle.emplace_back(ball * std::sin(angle), -ball * std::cos(angle));
@@ -109,10 +111,10 @@ void ForkModel::make_end() {
   }
 }
 
-/// Adds the surface that the profile's points (radius, z), from back to front, sweep about the line x = `centre`, to
-/// the shaft or the end. Edges are sharp: each segment of the profile has its own vertices and normals.
+/// Adds a surface of revolution about the line x = `centre` to the shaft or the end. `profile`: points (radius, z) from
+/// back to front. Edges are sharp: each segment of the profile has its own vertices and normals.
 void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part) {
-  const int sides = look_.round_sides;
+  const int sides = appearance_.round_sides;
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
     const Eigen::Vector2d along = (profile[k + 1] - profile[k]).normalized();
     const Eigen::Vector2d outward(along.y(), -along.x());
@@ -132,10 +134,10 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
   }
 }
 
-/// A wire of so many segments around the axis, at this radius [diameters]: the coil or, without turns, a seam along
-/// the spring, which twist makes a spiral, or a beam.
+/// Makes a wire of `segments` segments around the axis at `radius` [diameters]: the coil or, without turns, a beam or a
+/// seam along the spring, which shows the twist.
 void ForkModel::make_wire(int turns, int segments, double radius) {
-  const int sides = look_.wire_sides, rings = segments + 1;
+  const int sides = appearance_.wire_sides, rings = segments + 1;
   const int first = static_cast<int>(shaft_.size() + end_.size()) + sides * static_cast<int>(wire_.size());
   const double phi_rate = 2.0 * M_PI * turns;
   const auto ring = [&](int k, double cap) {
@@ -159,7 +161,7 @@ void ForkModel::make_wire(int turns, int segments, double radius) {
   }
 }
 
-/// The ring's centre is where the deformed cylinder takes it; around it, the wire is round in its own cross section.
+/// The centre of the ring follows the deformed cylinder; the wire keeps a circular cross section around it.
 void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double wire_end, double diameter,
                          ForkMesh& mesh) const {
   const CurvePoint at = curve.at(wire_end * ring.z);
@@ -171,10 +173,10 @@ void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double wi
           .normalized();
   const Vector3d side = along.cross(at.R * out).normalized();
   const Vector3d outward = side.cross(along);
-  for (int i = 0; i < look_.wire_sides; ++i) {
-    const double angle = 2.0 * M_PI * i / look_.wire_sides;
+  for (int i = 0; i < appearance_.wire_sides; ++i) {
+    const double angle = 2.0 * M_PI * i / appearance_.wire_sides;
     const Vector3d direction = std::cos(angle) * outward + std::sin(angle) * side;
-    mesh.vertices.push_back(centre + look_.wire_radius * diameter * direction);
+    mesh.vertices.push_back(centre + appearance_.wire_radius * diameter * direction);
     mesh.normals.push_back(ring.cap == 0.0 ? direction : Vector3d(ring.cap * along));
   }
 }
@@ -192,8 +194,8 @@ void ForkModel::deform(const ForkCurve& curve, double diameter, ForkMesh& mesh) 
   };
   add_rigid(shaft_, curve.begin());
   add_rigid(end_, curve.end());
-  // The wire ends where the needle begins; a spring that is shorter than the needle is within it.
-  const double needle = look_.end == ForkLook::End::needle ? look_.needle_length * diameter : 0.0;
+  // The wire ends at the base of the needle; a spring shorter than the needle lies inside it.
+  const double needle = appearance_.end == ForkAppearance::End::needle ? appearance_.needle_length * diameter : 0.0;
   const double wire_end = std::max(1.0 - needle / curve.at(1.0).p_rate.norm(), 1e-3);
   for (const WireRing& ring : wire_) add_ring(ring, curve, wire_end, diameter, mesh);
 }

@@ -12,7 +12,7 @@ namespace {
 struct Axis {
   double gap = -std::numeric_limits<double>::infinity();
   Vector3d n_W = Vector3d::UnitZ();  ///< from `b` towards `a`
-  int of_a = -1, of_b = -1;          ///< the boxes' axes that it is made from
+  int of_a = -1, of_b = -1;          ///< the axes of the boxes that define it
 };
 
 void look(const OutlineBox& a, const OutlineBox& b, const Vector3d& axis, int of_a, int of_b, Axis& best) {
@@ -23,13 +23,13 @@ void look(const OutlineBox& a, const OutlineBox& b, const Vector3d& axis, int of
   if (gap > best.gap) best = {gap, axis / (apart < 0.0 ? -size : size), of_a, of_b};
 }
 
-/// Keeps what of the polygon lies at `n · x ≤ most`.
-void clip(std::vector<Vector3d>& polygon, const Vector3d& n_W, double most) {
+/// Clips the polygon to the half-space `n · x ≤ most`.
+void clip(std::vector<Vector3d>& polygon, const Vector3d& n_W, double limit) {
   std::vector<Vector3d> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vector3d& p = polygon[i];
     const Vector3d& q = polygon[(i + 1) % polygon.size()];
-    const double over_p = n_W.dot(p) - most, over_q = n_W.dot(q) - most;
+    const double over_p = n_W.dot(p) - limit, over_q = n_W.dot(q) - limit;
     if (over_p <= 0.0) kept.push_back(p);
     if ((over_p < 0.0 && over_q > 0.0) || (over_p > 0.0 && over_q < 0.0)) {
       kept.push_back(p + over_p / (over_p - over_q) * (q - p));
@@ -38,7 +38,7 @@ void clip(std::vector<Vector3d>& polygon, const Vector3d& n_W, double most) {
   polygon = std::move(kept);
 }
 
-/// The face of the box that looks most along `n`, as its corners in order.
+/// Corners, in order, of the box face whose normal is closest to `n`.
 std::vector<Vector3d> face_towards(const OutlineBox& box, const Vector3d& n_W) {
   const Vector3d n = box.X.linear().transpose() * n_W;
   Eigen::Index i;
@@ -55,7 +55,7 @@ std::vector<Vector3d> face_towards(const OutlineBox& box, const Vector3d& n_W) {
   return corners;
 }
 
-/// Four of the contacts that span what all of them do, and the deepest where it stands out.
+/// Reduces the contacts to four that span nearly the same area; includes the deepest one if it is significantly deeper.
 std::vector<BoxContact> reduced(const std::vector<BoxContact>& all, const Vector3d& u_W, const Vector3d& v_W) {
   std::vector<std::size_t> kept;
   for (const Vector3d& outwards :
@@ -71,7 +71,7 @@ std::vector<BoxContact> reduced(const std::vector<BoxContact>& all, const Vector
       std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.gap < y.gap; }) -
       all.begin());
   std::sort(kept.begin(), kept.end(), higher);
-  if (all[deepest].gap < all[kept.back()].gap - stands_out) kept.front() = deepest;
+  if (all[deepest].gap < all[kept.back()].gap - depth_advantage) kept.front() = deepest;
   std::vector<BoxContact> four;
   for (const std::size_t i : kept) four.push_back(all[i]);
   return four;
@@ -80,7 +80,7 @@ std::vector<BoxContact> reduced(const std::vector<BoxContact>& all, const Vector
 std::vector<BoxContact> of_faces(const OutlineBox& a, const OutlineBox& b, const Axis& axis, double margin) {
   const bool face_of_b = axis.of_b >= 0;
   const OutlineBox& face = face_of_b ? b : a;
-  const Vector3d out = face_of_b ? axis.n_W : Vector3d(-axis.n_W);  // of the face
+  const Vector3d out = face_of_b ? axis.n_W : Vector3d(-axis.n_W);  // outward normal of the face
   const int normal = face_of_b ? axis.of_b : axis.of_a;
   std::vector<Vector3d> polygon = face_towards(face_of_b ? a : b, -out);
   for (int i = 0; i < 3; ++i) {
@@ -101,7 +101,7 @@ std::vector<BoxContact> of_faces(const OutlineBox& a, const OutlineBox& b, const
   return contacts;
 }
 
-/// The middle of the edge along `axis` that is furthest along `n`.
+/// Midpoint of the edge parallel to `axis` that is furthest along `n`.
 Vector3d edge_towards(const OutlineBox& box, int axis, const Vector3d& n_W) {
   Vector3d p = (box.X.linear().transpose() * n_W).cwiseSign().cwiseProduct(box.half);
   p[axis] = 0.0;
@@ -131,7 +131,7 @@ std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, d
     for (int k = 0; k < 3; ++k) look(a, b, a.X.linear().col(i).cross(b.X.linear().col(k)), i, k, edges);
   }
   if (edges.gap > margin) return {};
-  if (edges.gap > faces.gap + edges_by + edges_by_share * std::abs(faces.gap)) return {of_edges(a, b, edges)};
+  if (edges.gap > faces.gap + edge_margin + edge_margin_fraction * std::abs(faces.gap)) return {of_edges(a, b, edges)};
   return of_faces(a, b, faces, margin);
 }
 

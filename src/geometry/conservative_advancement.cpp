@@ -16,7 +16,7 @@ double positive_until(double a, double b, double c, double longest) {
   return b < 0.0 ? 2.0 * a / (root - b) : (b + root) / c;
 }
 
-/// The plane goes with the box, and the corners are those of the other.
+/// The separating plane moves with the box `own`; the corners are those of the other box.
 double clear_of_corners(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
                         const Vector3d& n_W, double tolerance, double longest) {
   const double lowest = n_W.dot(own.X.translation() - motion.p_WO) - reach(own, n_W);

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The part of a line that is in a convex shape, or that part of it which has been looked at so far.
+/// The interval of a line inside a convex shape, intersected step by step.
 struct Interval {
   double begin = -never, end = never;
-  Vector3d normal = Vector3d::Zero();  ///< outward, where it begins
+  Vector3d normal = Vector3d::Zero();  ///< outward normal at the start of the interval
 
   void cut(double from, double to, const Vector3d& outward) {
     if (from > begin) {
@@ -23,8 +23,8 @@ struct Interval {
     }
     end = std::min(end, to);
   }
-  /// Keeps what lies between −half and half in the coordinate `axis` of p + s d.
-  void cut_slab(const Vector3d& p, const Vector3d& d, int axis, double half) {
+  /// Intersects with the slab in which coordinate `axis` of p + s d is between −half and half.
+  void clip_to_slab(const Vector3d& p, const Vector3d& d, int axis, double half) {
     if (d[axis] == 0.0) {
       if (std::abs(p[axis]) > half) end = -never;
       return;
@@ -32,8 +32,8 @@ struct Interval {
     const double a = (-half - p[axis]) / d[axis], b = (half - p[axis]) / d[axis];
     cut(std::min(a, b), std::max(a, b), Vector3d::Unit(axis) * (d[axis] > 0.0 ? -1.0 : 1.0));
   }
-  /// Keeps where p + s d is no farther than the radius from the origin.
-  void cut_round(const Vector3d& p, const Vector3d& d, double radius) {
+  /// Intersects with the ball of this radius about the origin.
+  void clip_to_ball(const Vector3d& p, const Vector3d& d, double radius) {
     const double a = d.squaredNorm(), b = p.dot(d), c = p.squaredNorm() - radius * radius, discriminant = b * b - a * c;
     if (a == 0.0 || discriminant < 0.0) {
       if (a != 0.0 || c > 0.0) end = -never;
@@ -50,25 +50,25 @@ struct Interval {
 
 RayHit entry(const Box& box, const Vector3d& p, const Vector3d& d) {
   Interval interval;
-  for (int i = 0; i < 3; ++i) interval.cut_slab(p, d, i, 0.5 * box.size[i]);
+  for (int i = 0; i < 3; ++i) interval.clip_to_slab(p, d, i, 0.5 * box.size[i]);
   return interval.entry();
 }
 
 RayHit entry(const Sphere& sphere, const Vector3d& p, const Vector3d& d) {
   Interval interval;
-  interval.cut_round(p, d, sphere.radius);
+  interval.clip_to_ball(p, d, sphere.radius);
   return interval.entry();
 }
 
 RayHit entry(const Cylinder& cylinder, const Vector3d& p, const Vector3d& d) {
   const Vector3d across(1.0, 1.0, 0.0);
   Interval interval;
-  interval.cut_slab(p, d, 2, 0.5 * cylinder.length);
-  interval.cut_round(across.cwiseProduct(p), across.cwiseProduct(d), cylinder.radius);
+  interval.clip_to_slab(p, d, 2, 0.5 * cylinder.length);
+  interval.clip_to_ball(across.cwiseProduct(p), across.cwiseProduct(d), cylinder.radius);
   return interval.entry();
 }
 
-/// The nearest triangle that the ray goes through (Möller and Trumbore, 1997).
+/// First hit of the ray with a triangle of the mesh (Möller and Trumbore, 1997).
 RayHit entry(const MeshPtr& mesh, const Vector3d& p, const Vector3d& d) {
   if (contains(Geometry(mesh), p)) return {0.0, Vector3d::Zero()};
   RayHit nearest{never, Vector3d::Zero()};

@@ -32,7 +32,7 @@ VolumeProperties cylinder_properties(const Cylinder& c) {
   return {volume, Vector3d::Zero(), Vector3d(across, across, along).asDiagonal()};
 }
 
-/// Sums over the signed tetrahedra that the triangles make with the middle of the mesh.
+/// Sums over the signed tetrahedra between the triangles and the centre of the mesh.
 VolumeProperties mesh_properties(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& v : mesh.vertices) box.extend(v);
@@ -55,7 +55,7 @@ VolumeProperties mesh_properties(const TriangleMesh& mesh) {
   return {volume, middle + centre, central.trace() * Matrix3d::Identity() - central};
 }
 
-/// How often the mesh winds around `p`, by the solid angles of its triangles (Van Oosterom and Strackee, 1983).
+/// Winding number of the mesh around `p`, from the solid angles of its triangles (Van Oosterom and Strackee, 1983).
 double winding_number(const TriangleMesh& mesh, const Vector3d& p) {
   double half_angles = 0.0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
@@ -77,7 +77,7 @@ double cylinder_reach(const Cylinder& c, const RigidTransform& X) {
   return std::hypot(along, across);
 }
 
-/// Largest distance of a point of the shape from the origin of the frame that `X` places it in.
+/// Largest distance of a point of the shape, placed at `X`, from the origin.
 double reach(const Geometry& geometry, const RigidTransform& X) {
   return std::visit(Overloaded{[&](const Box& b) {
                                  const Vector3d centre = X.linear().transpose() * X.translation();

@@ -15,7 +15,7 @@ namespace {
 void add_edges(const Surface& surface, int t, std::vector<Solid::Edge>& edges) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int neighbour = surface.neighbours[static_cast<std::size_t>(t)][k];
-    if (neighbour < t) continue;  // none, or looked at with it
+    if (neighbour < t) continue;  // no neighbour, or already done
     const Vector3d& start = surface.corner(t, static_cast<int>(k));
     const Vector3d along = surface.corner(t, static_cast<int>((k + 1) % 3)) - start;
     const Vector3d into_left = surface.normal(t).cross(along).normalized();
@@ -24,12 +24,12 @@ void add_edges(const Surface& surface, int t, std::vector<Solid::Edge>& edges) {
   }
 }
 
-/// Which points of `a` may touch the faces of `b`, as seen from `b`.
+/// The solids `a` and `b` in the frame of `b`, for contacts of points of `a` with faces of `b`.
 struct View {
   const Solid &a, &b;
   const RigidTransform& X_BA;
   double reach, deepest;
-  std::vector<BoxContact>& found;  ///< in the frame of `b`
+  std::vector<BoxContact>& found;  ///< contacts found, in the frame of `b`
 
   void add(const Vector3d& p, const Vector3d& n, double gap) const {
     for (const BoxContact& c : found) {
@@ -38,7 +38,7 @@ struct View {
     found.push_back({p, n, gap});
   }
   Vector3d n_A(const Vector3d& n_B) const { return X_BA.linear().transpose() * n_B; }
-  /// Whether nothing that edges join with the corner lies much lower.
+  /// Whether no corner that is joined to this one by an edge is much lower.
   bool is_low(std::size_t corner, const Vector3d& n_B) const {
     const Vector3d n = n_A(n_B);
     return std::all_of(a.next[corner].begin(), a.next[corner].end(), [&](int other) {
@@ -48,14 +48,14 @@ struct View {
   }
 };
 
-/// How far beyond a face or an edge a contact with this gap may be: where two meet in a groove, what is as deep in both
-/// is before neither.
+/// Tolerance by which a contact with this gap may be outside the outline of a face or beyond the end of an edge: in a
+/// groove, a point equally deep in both faces would otherwise be in front of neither.
 double beyond(double gap) { return same_place + std::max(0.0, -gap); }
 
 using Extent = Eigen::AlignedBox3d;
 
-/// Pairs of parts of `a`, by what is around them seen from `b`, and of `b` that are near enough to each other: corners
-/// and edges may be behind what they touch.
+/// Finds pairs of parts of `a` and `b` whose bounding boxes (seen from `b`) are near each other; corners and edges may
+/// be behind the part that they touch.
 template <typename Part, typename ExtentOf>
 std::vector<std::pair<std::size_t, std::size_t>> pairs_near(const View& view, const std::vector<Part>& a,
                                                             const ExtentOf& extent_of, const PartTree& b) {
@@ -109,8 +109,8 @@ double distance(const Solid::Face& face, const Vector3d& p) {
   return nearest;
 }
 
-/// A point of `a` with a face of `b`: before it; or behind it, if there is no nearer face that it is before, or through
-/// which it came. `is_low`: whether the point is one with which `a` can touch a face with that normal.
+/// Contacts of a point of `a` with a face of `b`: in front of the face; or behind it, unless the point is in front of a
+/// nearer face or has entered through one. `is_low`: whether `a` can touch a face with that normal with this point.
 template <typename IsLow>
 void point_and_face(const View& view, const Vector3d& p, const Solid::Face& face, const IsLow& is_low) {
   const double gap = face.n.dot(p - face.corners[0]);
@@ -122,7 +122,7 @@ void point_and_face(const View& view, const Vector3d& p, const Solid::Face& face
   view.add(p - gap * face.n, face.n, gap);
 }
 
-/// The same with the side and the ends of a cylinder.
+/// The same for the side and the ends of a cylinder.
 template <typename IsLow>
 void point_and_cylinder(const View& view, const Vector3d& p, const IsLow& is_low) {
   const Cylinder& c = *view.b.cylinder;
@@ -137,7 +137,7 @@ void point_and_cylinder(const View& view, const Vector3d& p, const IsLow& is_low
   view.add(p - gap * n, n, gap);
 }
 
-/// Whether a face reaches to an end of the cylinder `a`, where all its lowest points are.
+/// Whether a face extends to an end of the cylinder `a`, where all its lowest points are.
 bool is_near_rims(const View& view, const Solid::Face& face) {
   const double end = 0.5 * view.a.cylinder->length + view.reach;
   double least = end, most = -end;
@@ -170,8 +170,8 @@ void points_and_faces(const View& view) {
   }
 }
 
-/// Whether the edge's solid lies on the side of the edge that `n` points away from, but for the slope of what is flush.
-bool is_extreme(const Vector3d& into_left, const Vector3d& into_right, const Vector3d& n) {
+/// Whether the solid of the edge is on the side that `n` points away from, up to the slope of flush faces.
+bool is_supporting(const Vector3d& into_left, const Vector3d& into_right, const Vector3d& n) {
   return n.dot(into_left) <= slope_of_flush && n.dot(into_right) <= slope_of_flush;
 }
 
@@ -184,16 +184,16 @@ void edge_and_edge(const View& view, const Solid::Edge& a, const Solid::Edge& b)
   for (const double sign : {1.0, -1.0}) {
     const Vector3d n = sign / std::sqrt(size2) * cross;
     const double gap = -between.dot(n);
-    if (!(gap < view.reach && gap > -view.deepest) || !is_extreme(b.into_left, b.into_right, n)) continue;
+    if (!(gap < view.reach && gap > -view.deepest) || !is_supporting(b.into_left, b.into_right, n)) continue;
     const double s = between.cross(b.along).dot(cross) / size2, t = between.cross(along).dot(cross) / size2;
     const auto outside = [](double at, double length) { return std::max(-at, at - 1.0) * length; };
     if (std::max(outside(s, along.norm()), outside(t, b.along.norm())) > beyond(gap)) continue;
     const Vector3d n_A = view.n_A(n);
-    if (is_extreme(a.into_left, a.into_right, -n_A)) view.add(b.start + t * b.along, n, gap);
+    if (is_supporting(a.into_left, a.into_right, -n_A)) view.add(b.start + t * b.along, n, gap);
   }
 }
 
-/// An edge with a cylinder's side, where it is nearest to the axis.
+/// Contact of an edge with the side of a cylinder, at the edge's point nearest to the axis.
 void edge_and_side(const View& view, const Solid::Edge& edge) {
   const Cylinder& c = *view.b.cylinder;
   const Vector3d start = view.X_BA * edge.start, along = view.X_BA.linear() * edge.along;
@@ -205,7 +205,7 @@ void edge_and_side(const View& view, const Solid::Edge& edge) {
   if (std::max(-s, s - 1.0) * along.norm() > beyond(gap)) return;
   if (!(gap < view.reach && gap > -view.deepest) || across == 0.0 || std::abs(p.z()) > 0.5 * c.length) return;
   const Vector3d n(p.x() / across, p.y() / across, 0.0), n_A = view.n_A(n);
-  if (is_extreme(edge.into_left, edge.into_right, -n_A)) view.add(p - gap * n, n, gap);
+  if (is_supporting(edge.into_left, edge.into_right, -n_A)) view.add(p - gap * n, n, gap);
 }
 
 void edges_and_edges(const View& view) {
@@ -220,12 +220,12 @@ void edges_and_side(const View& view) {
 }
 
 /// Whether a line from `start` to `start + along` goes through a face.
-bool goes_through(const Vector3d& start, const Vector3d& along, const Solid::Face& face) {
+bool crosses(const Vector3d& start, const Vector3d& along, const Solid::Face& face) {
   const double before = face.n.dot(start - face.corners[0]), after = before + face.n.dot(along);
   return before * after < 0.0 && over(face, start + before / (before - after) * along, 0.0);
 }
 
-/// Where a straight line is inside a cylinder: from the first to the second multiple of `along`.
+/// The interval in which a straight line is inside a cylinder, as two multiples of `along`.
 std::pair<double, double> inside(const Cylinder& c, const Vector3d& start, const Vector3d& along) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double from = -infinity, to = infinity;
@@ -243,30 +243,30 @@ std::pair<double, double> inside(const Cylinder& c, const Vector3d& start, const
   return {from, to};
 }
 
-/// Whether an edge of `a`, or the axis of a cylinder, goes into `b`. Where two solids overlap, the hull of what they
-/// have in common has such a place for a corner, or one that is a corner of one of them.
+/// Whether an edge of `a`, or the axis of a cylinder, enters `b`. If two solids overlap, a corner of the hull of their
+/// intersection is such a point or a corner of one of the solids.
 bool pierces(const View& view) {
   for (const auto& [e, face] : edges_near(view, view.b.face_tree)) {
     const Solid::Edge& edge = view.a.edges[e];
-    if (goes_through(view.X_BA * edge.start, view.X_BA.linear() * edge.along, view.b.faces[face])) return true;
+    if (crosses(view.X_BA * edge.start, view.X_BA.linear() * edge.along, view.b.faces[face])) return true;
   }
-  const auto goes_in = [&](const Vector3d& start, const Vector3d& along) {
+  const auto enters = [&](const Vector3d& start, const Vector3d& along) {
     const Vector3d start_B = view.X_BA * start, along_B = view.X_BA.linear() * along;
     if (!view.b.cylinder) {
       return std::any_of(view.b.faces.begin(), view.b.faces.end(),
-                         [&](const Solid::Face& face) { return goes_through(start_B, along_B, face); });
+                         [&](const Solid::Face& face) { return crosses(start_B, along_B, face); });
     }
     const auto [from, to] = inside(*view.b.cylinder, start_B, along_B);
     return std::max(from, 0.0) < std::min(to, 1.0);
   };
   const double length = view.a.cylinder ? view.a.cylinder->length : 0.0;
-  if (length > 0.0 && goes_in(-0.5 * length * Vector3d::UnitZ(), length * Vector3d::UnitZ())) return true;
+  if (length > 0.0 && enters(-0.5 * length * Vector3d::UnitZ(), length * Vector3d::UnitZ())) return true;
   return view.b.cylinder && std::any_of(view.a.edges.begin(), view.a.edges.end(),
-                                        [&](const Solid::Edge& edge) { return goes_in(edge.start, edge.along); });
+                                        [&](const Solid::Edge& edge) { return enters(edge.start, edge.along); });
 }
 
-/// Whether `a` may be in `b` as a whole, and one point of it is.
-bool is_swallowed(const View& view) {
+/// Whether `a` is contained in `b`: it fits, and one of its points is inside.
+bool is_contained(const View& view) {
   if (!view.b.extent.contains(bounding_box(view.a.extent, view.X_BA))) return false;
   return contains(view.b.geometry, view.X_BA * furthest(view.a, Vector3d::UnitX()));
 }
@@ -298,7 +298,7 @@ Solid::Solid(const Geometry& of) : geometry(of), extent(bounding_box(of)) {
   const std::shared_ptr<const Surface> surface = make_surface(of);
   for (std::size_t i = 0; i < surface->normals.size(); ++i) {
     const int t = static_cast<int>(i);
-    if (!(surface->normals[i].squaredNorm() > 0.0)) continue;  // no area
+    if (!(surface->normals[i].squaredNorm() > 0.0)) continue;  // degenerate
     const std::size_t before = edges.size();
     add_edges(*surface, t, edges);
     if (!cylinder) {
@@ -366,7 +366,7 @@ bool overlap(const Solid& a, const RigidTransform& X_WA, const Solid& b, const R
   const RigidTransform X_BA = X_WB.inverse() * X_WA, X_AB = X_BA.inverse();
   std::vector<BoxContact> none;
   const View from_b{a, b, X_BA, 0.0, 0.0, none}, from_a{b, a, X_AB, 0.0, 0.0, none};
-  return pierces(from_b) || pierces(from_a) || is_swallowed(from_b) || is_swallowed(from_a);
+  return pierces(from_b) || pierces(from_a) || is_contained(from_b) || is_contained(from_a);
 }
 
 std::optional<BoxContact> way_out(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,

@@ -8,7 +8,7 @@
 namespace spring_workbench::hand_input {
 namespace {
 
-/// The part of a path of this length that is gone when its last `play` is left.
+/// Fraction of a path of this length that must be covered so that only `play` is left.
 double dragged_share(double length, double play) { return length > play ? 1.0 - play / length : 0.0; }
 
 }  // namespace
@@ -25,7 +25,7 @@ void DeadBand::drag(const RigidTransform& X) {
   followed.translation() += dragged_share(path.norm(), play_ * settings_.dead_band_distance) * path;
   const double share = dragged_share(turn.norm(), play_ * settings_.dead_band_angle);
   const Matrix3d R = followed.linear() * math::exp_so3(share * turn);
-  followed.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up
+  followed.linear() = Quaterniond(R).normalized().toRotationMatrix();  // so that rounding errors do not accumulate
 }
 
 motion::PoseSample DeadBand::filter(const motion::PoseSample& sample) {

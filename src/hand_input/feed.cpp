@@ -44,8 +44,8 @@ struct Feed::Hand {
   Reacquisition reacquisition;
   PlayoutClock playout;
   motion::PosePredictor ahead;
-  bool has_sample = false;             ///< since the start
-  std::optional<RigidTransform> X_WP;  ///< of the tracker, at the newest sample
+  bool has_sample = false;             ///< whether a sample has arrived since the start
+  std::optional<RigidTransform> X_WP;  ///< pose of the tracker at the newest sample
   std::size_t tracker_moves = 0;
 };
 
@@ -86,7 +86,7 @@ GateResult Feed::push_stylus(const motion::PoseSample& sample, std::size_t hand)
   return result;
 }
 
-/// `X_WP`: none where the sample is in world.
+/// `X_WP`: null if the sample is in world.
 void Feed::follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP,
                   const LocalTime& arrival, std::size_t hand) {
   Hand& input = hands_.at(hand);
@@ -109,10 +109,12 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
     note(Accepted::Kind::pose, hand, followed.t, followed.X);
   }
   has_sample_ |= input.has_sample;
-  input.playout.sample(sample.t, arrival);  // a late one, too: what may still arrive is waited for
+  input.playout.sample(sample.t, arrival);  // even if it is late: later samples may still arrive
 }
 
-void Feed::heard(const LocalTime& arrival, std::size_t hand) { hands_.at(hand).playout.heard(arrival); }
+void Feed::report_arrival(const LocalTime& arrival, std::size_t hand) {
+  hands_.at(hand).playout.report_arrival(arrival);
+}
 
 void Feed::restart_gate(std::size_t hand) {
   hands_.at(hand).gate.restart();
@@ -144,7 +146,7 @@ std::optional<double> Feed::next_stop(const LocalTime& now) const {
   double known = -kNever, rests = kNever;
   for (const Hand& hand : hands_) {
     if (!hand.has_sample) continue;
-    known = std::min(known, hand.playout.known_until(now));
+    known = std::min(known, hand.playout.complete_until(now));
     rests = std::max(rests, hand.playout.rests_until(now));
   }
   const bool silent = has_sample_ && known == -kNever;
@@ -182,11 +184,11 @@ void Feed::predict(double t, simulation::Simulation& copy) const {
   }
 }
 
-double Feed::waited(const LocalTime& now) const {
+double Feed::time_since_arrival(const LocalTime& now) const {
   const auto newest = std::max_element(hands_.begin(), hands_.end(), [](const Hand& a, const Hand& b) {
     return a.playout.newest() < b.playout.newest();
   });
-  return newest->playout.waited(now);
+  return newest->playout.time_since_arrival(now);
 }
 
 void Feed::restart() {

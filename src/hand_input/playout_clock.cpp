@@ -10,23 +10,23 @@ namespace spring_workbench::hand_input {
 void PlayoutClock::sample(double t, const LocalTime& arrival) {
   const double interval = t - newest_;
   if (std::isfinite(interval) && interval <= dropout_after_) {
-    interval_ = interval_ > 0.0 ? interval_ + share_of_new * (interval - interval_) : interval;
+    interval_ = interval_ > 0.0 ? interval_ + new_interval_weight * (interval - interval_) : interval;
   }
   before_newest_ = newest_;
   newest_ = t;
   arrival_ = arrival;
 }
 
-double PlayoutClock::waited(const LocalTime& now) const { return std::max(now.loop - arrival_.loop, 0.0); }
+double PlayoutClock::time_since_arrival(const LocalTime& now) const { return std::max(now.loop - arrival_.loop, 0.0); }
 
-double PlayoutClock::known_until(const LocalTime& now) const {
-  const bool silent = waited(now) > dropout_after_ && now.attended - arrival_.attended > shortest_silence;
+double PlayoutClock::complete_until(const LocalTime& now) const {
+  const bool silent = time_since_arrival(now) > dropout_after_ && now.attended - arrival_.attended > shortest_silence;
   if (silent && std::isfinite(newest_)) return std::numeric_limits<double>::infinity();
   const bool buttons_come = now.attended - buttons_arrival_ < shortest_silence;
   return buttons_come ? std::min(before_newest_, buttons_until_) : before_newest_;
 }
 
-double PlayoutClock::rests_until(const LocalTime& now) const { return newest_ + waited(now) - interval_; }
+double PlayoutClock::rests_until(const LocalTime& now) const { return newest_ + time_since_arrival(now) - interval_; }
 
 void PlayoutClock::buttons(double t, const LocalTime& arrival) {
   buttons_until_ = std::max(buttons_until_, t);

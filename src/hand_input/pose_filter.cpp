@@ -34,7 +34,7 @@ motion::PoseSample PoseFilter::filter(const motion::PoseSample& sample) {
   const double R_share = weight(settings_.min_cutoff + settings_.beta_angle * w_B_.norm(), dt);
   X_.translation() += p_share * (sample.X.translation() - X_.translation());
   const Matrix3d R = X_.linear() * math::exp_so3(R_share * math::log_so3(X_.linear().transpose() * sample.X.linear()));
-  X_.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up
+  X_.linear() = Quaterniond(R).normalized().toRotationMatrix();  // so that rounding errors do not accumulate
   return {sample.t, X_};
 }
 

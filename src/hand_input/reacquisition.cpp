@@ -10,10 +10,10 @@
 namespace spring_workbench::hand_input {
 namespace {
 
-/// From 0 to 1 while u goes there, with level ends.
+/// Smooth step from 0 to 1 for u = 0 … 1, with zero slope at both ends.
 double smooth_step(double u) { return u >= 1.0 ? 1.0 : u * u * (3.0 - 2.0 * u); }
 
-/// Fraction of a path of this length that is covered in `dt`.
+/// Fraction of a path of this length that is covered in `dt` [s].
 double share(double path, double speed, double dt) {
   return path > 0.0 ? std::min(1.0, dt * std::min(speed / path, 1.0 / tail_time)) : 0.0;
 }
@@ -50,10 +50,10 @@ void Reacquisition::begin_catch_up(const motion::PoseSample& sample) {
 RigidTransform Reacquisition::catch_up(const motion::PoseSample& sample) {
   const double dt = sample.t - tracked_.t;
   const double ramp = smooth_step((sample.t - catch_up_began_) / ramp_time);
-  RigidTransform X = newest_->X;  // first with the tracked hand ...
+  RigidTransform X = newest_->X;  // first the step of the tracked hand ...
   X.translation() += ramp * (sample.X.translation() - tracked_.X.translation());
   X.linear() = X.linear() * math::exp_so3(ramp * math::log_so3(tracked_.X.linear().transpose() * sample.X.linear()));
-  const Vector3d path = sample.X.translation() - X.translation();  // ... then towards it
+  const Vector3d path = sample.X.translation() - X.translation();  // ... then the approach to it
   const Vector3d turn = math::log_so3(X.linear().transpose() * sample.X.linear());
   if (path.norm() < near && turn.norm() < near_angle) {
     catching_up_ = false;
@@ -62,7 +62,7 @@ RigidTransform Reacquisition::catch_up(const motion::PoseSample& sample) {
   X.translation() += ramp * share(path.norm(), settings_.reacquisition_speed, dt) * path;
   const Matrix3d R =
       X.linear() * math::exp_so3(ramp * share(turn.norm(), settings_.reacquisition_turn_rate, dt) * turn);
-  X.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up
+  X.linear() = Quaterniond(R).normalized().toRotationMatrix();  // so that rounding errors do not accumulate
   return X;
 }
 

@@ -9,7 +9,7 @@
 namespace spring_workbench::hand_input {
 namespace {
 
-// Below these a move is never an outlier: noise of a tracker, and of stamps that are close together.
+// Smaller motions are never outliers, but noise of the tracker or of closely spaced stamps.
 
 std::string text(double value) {
   std::ostringstream out;
@@ -17,7 +17,7 @@ std::string text(double value) {
   return out.str();
 }
 
-/// Angle of the rotation from a to b [rad], 0 … π, the signs of the quaternions aside.
+/// Angle of the rotation from a to b [rad], 0 … π, irrespective of the signs of the quaternions.
 double angle_between(const Quaterniond& a, const Quaterniond& b) {
   return 2.0 * std::atan2((a.conjugate() * b).vec().norm(), std::abs(a.dot(b)));
 }
@@ -92,7 +92,7 @@ SampleGate::SampleGate(const InputSettings& settings, double dropout_after)
 void SampleGate::restart() {
   newest_.reset();
   candidate_.reset();
-  in_a_row_ = 0;
+  agreeing_samples_ = 0;
   interval_ = 0.0;
 }
 
@@ -132,9 +132,9 @@ bool SampleGate::confirmed(const RawSample& sample) {
   const bool later = !candidate_ || sample.t - candidate_->t >= same_time;
   if (!later) return false;
   const bool fits = candidate_ && judge_move(*candidate_, sample) == GateResult::accepted;
-  in_a_row_ = fits ? in_a_row_ + 1 : 1;
+  agreeing_samples_ = fits ? agreeing_samples_ + 1 : 1;
   candidate_ = sample;
-  return in_a_row_ >= settings_.accept_after;
+  return agreeing_samples_ >= settings_.accept_after;
 }
 
 bool SampleGate::is_from_candidate(const RawSample& sample) const {
@@ -147,7 +147,7 @@ GateResult SampleGate::accept(const RawSample& sample, bool jumped) {
   const bool first = !newest_;
   if (!first && !after_dropout) {
     const double dt = sample.t - newest_->t;
-    interval_ = interval_ > 0.0 ? interval_ + share_of_new * (dt - interval_) : dt;
+    interval_ = interval_ > 0.0 ? interval_ + new_interval_weight * (dt - interval_) : dt;
   }
   counts_.dropouts += after_dropout ? 1 : 0;
   counts_.relocations += jumped ? 1 : 0;
@@ -156,7 +156,7 @@ GateResult SampleGate::accept(const RawSample& sample, bool jumped) {
   newest_ = sample;
   newest_->q.normalize();
   candidate_.reset();
-  in_a_row_ = 0;
+  agreeing_samples_ = 0;
   return first || after_dropout || jumped ? GateResult::relocation : GateResult::accepted;
 }
 

@@ -18,7 +18,7 @@ validation::NumberRule positive_or_infinite() {
   return rule;
 }
 
-/// One row of the table.
+/// A row of the table of settings.
 struct Entry {
   InputDescription description;
   std::function<void(const YAML::Node&, const std::string& where, const std::string& name, InputSettings&)> read;
@@ -97,7 +97,7 @@ void set(const std::string& key, const YAML::Node& value, const std::string& whe
       validation::one_line(where + ": " + name + ": " + validation::unknown_key(name, validation::join(known))));
 }
 
-/// `value` under `key`: a map goes deeper, anything else is a value.
+/// Sets `value` under `key`; a map is a group of further keys.
 void set_all(const std::string& key, const YAML::Node& value, const std::string& where, InputSettings& settings) {
   if (!value.IsMap()) return set(key, value, where, settings);
   for (const auto& entry : value) {

@@ -10,8 +10,8 @@
 namespace spring_workbench::instruments {
 namespace {
 
-/// The low-pass of a time constant [s] behind a force, which goes evenly from sample to sample.
-/// With it, its derivative by the time constant.
+/// First-order low-pass of a force that is linear between samples, with its derivative with respect to the time
+/// constant [s].
 class LowPass {
  public:
   LowPass(double lag, double force) : lag_(lag), force_(force), value_(force) {}
@@ -19,7 +19,7 @@ class LowPass {
   void step(double h, double force) {
     const double rate = (force - force_) / h;
     if (lag_ > 0.0) {
-      // T y' = F − y with F = force_ + rate s, solved exactly, and its derivative by T.
+      // T y' = F − y with F = force_ + rate s, solved exactly, and its derivative with respect to T.
       const double e = std::exp(-h / lag_), off = value_ - force_ + rate * lag_;
       slope_ = e * slope_ - rate * (1.0 - e) + off * (h / lag_) * e / lag_;
       value_ = force - rate * lag_ + off * e;
@@ -36,7 +36,7 @@ class LowPass {
   double lag_, force_, value_, slope_ = 0.0;
 };
 
-/// The inverse of an interval of a number that is > 0.
+/// Reciprocal of an estimate of a number > 0.
 Estimate inverse(double value, double deviation) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const auto of = [](double x) { return x > 0.0 ? 1.0 / x : infinite; };
@@ -50,13 +50,13 @@ void MaterialEstimate::add(double t, double path, double force) {
   if (samples_.size() > touch_samples) samples_.pop_front();
 }
 
-/// Least squares of path = surface + compliance · (y + (T − lag) dy/dT) + start · exp(−(t − t₀) / lag), which is linear
-/// in surface, compliance, its product with T, and in what the touch had before the first sample (an impact, or what is
-/// forgotten), which dies away.
+/// Least-squares fit of path = surface + compliance · (y + (T − lag) dy/dT) + start · exp(−(t − t₀) / lag), which is
+/// linear in surface, compliance, the product of compliance and T, and in the decaying transient from before the first
+/// sample (an impact, or dropped samples).
 std::optional<MaterialEstimate::Fit> MaterialEstimate::fit_near(double lag) const {
   const auto count = static_cast<Eigen::Index>(samples_.size());
   constexpr Eigen::Index unknowns = 4;
-  if (count < unknowns + fewest_to_spare) return std::nullopt;
+  if (count < unknowns + min_extra_samples) return std::nullopt;
   Eigen::MatrixX4d of(count, unknowns);
   Eigen::VectorXd path(count);
   LowPass low_pass(lag, samples_.front().force);
@@ -88,14 +88,14 @@ std::optional<MaterialEstimate::Fit> MaterialEstimate::fit_near(double lag) cons
   return fit;
 }
 
-/// A time constant below 0, which noise may give where there is none, is fitted as the straight line from 0.
+/// A time constant below 0, which can result from noise if there is no damping, is linearised about 0.
 std::optional<MaterialEstimate::Fit> MaterialEstimate::fit() const {
   double lag = 0.0;
-  for (int i = 0; i < most_refits; ++i) {
+  for (int i = 0; i < max_refits; ++i) {
     const std::optional<Fit> fit = fit_near(lag);
     if (!fit || !(fit->compliance > 0.0)) return std::nullopt;
     const double next = std::max(fit->lag, 0.0);
-    if (std::abs(next - lag) <= converged_change * fit->lag_deviation + no_lag) return fit;
+    if (std::abs(next - lag) <= converged_change * fit->lag_deviation + min_lag_change) return fit;
     lag = next;
   }
   return std::nullopt;

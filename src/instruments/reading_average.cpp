@@ -14,7 +14,7 @@ const std::string& carried_by(const tools::ToolState& tool) {
 
 }  // namespace
 
-void ReadingAverage::take_down(double t, const tools::ToolState& tool) {
+void ReadingAverage::record_instant(double t, const tools::ToolState& tool) {
   const std::string& carried = carried_by(tool);
   if (carried.empty() || (last_ && (t < last_->t || last_->carried != carried))) {
     last_.reset();
@@ -49,12 +49,12 @@ tools::Reading ReadingAverage::average(double Part::*integral, double present) c
   return reading;
 }
 
-/// The path along the axis is that of the tip that an undeformed probe would have, seen from what it touches.
+/// The path along the axis is that of the tip of an undeformed probe, relative to the touched body.
 void ReadingAverage::touch(double t, const tools::ToolState& tool, const RigidTransform& X_WT) {
   const double stiffness = tool.stiffness.stretch, force = -tool.handle_wrench_H.force.z();
-  const bool goes_on =
+  const bool continues =
       touch_ && touch_->touched == tool.touched && touch_->probe_stiffness == stiffness && t >= touch_->t;
-  if (!goes_on) {
+  if (!continues) {
     touch_.reset();
     material_.reset();
   }
@@ -67,7 +67,7 @@ void ReadingAverage::touch(double t, const tools::ToolState& tool, const RigidTr
 }
 
 void ReadingAverage::take(double t, tools::ToolState& tool, const RigidTransform& X_WT) {
-  take_down(t, tool);
+  record_instant(t, tool);
   touch(t, tool, X_WT);
   fill_in(tool);
 }

@@ -26,7 +26,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
                      "the path of a checkpoint or of a new file, in a writable folder");
 }
 
-/// Opens a checkpoint and reads past its header; null if there is no such file.
+/// Opens a checkpoint and reads its header; null if there is no such file.
 File open_ours(const std::string& path) {
   // Does not follow a symbolic link, and does not wait for the writer of a FIFO.
   const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -67,11 +67,12 @@ void Checkpoint::resume(const std::string& text, const std::string& where,
   YAML::Node map;
   try {
     map = YAML::Load(text);
-  } catch (const YAML::Exception&) {  // cut short: no map
+  } catch (const YAML::Exception&) {  // truncated: not a map
   }
   if (!map.IsMap()) throw validation::InputError(where + ": must be a complete checkpoint");
   const std::string given = config::read_string(map["given_scene"], where, "given_scene");
-  if (given != given_scene_) validation::refuse(where, "given_scene", given, "that of this start, " + given_scene_);
+  if (given != given_scene_)
+    validation::refuse(where, "given_scene", given, "the scene of this start, " + given_scene_);
   const std::string scene = config::read_string(map["scene"], where, "scene");
   const auto state = simulation::parse_state(config::read_string(map["state"], where, "state"));
   const scene::Scene present =

@@ -10,8 +10,8 @@ namespace spring_workbench::live {
 namespace {
 
 simulation::ChangeReport change_settings(const Command& command, simulation::Simulation& simulation) {
-  if (command.of_dynamics.empty()) return simulation.change(command.of_fork, command.hand);
-  simulation.change(command.of_fork, command.of_dynamics);
+  if (command.dynamics_change.empty()) return simulation.change(command.fork_change, command.hand);
+  simulation.change(command.fork_change, command.dynamics_change);
   return {};
 }
 
@@ -22,7 +22,7 @@ simulation::ChangeReport release(const Command& command, simulation::Simulation&
     const std::string name = simulation.fork(hand).held_object;
     if (simulation.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  if (names.empty()) throw validation::InputError("release: no object is held; call it while one is");
+  if (names.empty()) throw validation::InputError("release: no object is held; call it while an object is held");
   simulation::ChangeReport report;
   report.message = "released " + validation::join(names);
   return report;
@@ -61,9 +61,9 @@ Command Command::from(const std::vector<std::uint64_t>& words) {
 
 void Command::exchange(math::StateArchive& state) {
   state(kind, hand, tool, on, places);
-  state(of_fork.dofs, of_fork.stretch_stiffness, of_fork.bend_stiffness, of_fork.torsion_stiffness,
-        of_fork.damping_ratio, of_fork.damping_coefficient, of_fork.damping_law);
-  state(of_dynamics.integrator, of_dynamics.step, of_dynamics.tolerance, edit);
+  state(fork_change.dofs, fork_change.stretch_stiffness, fork_change.bend_stiffness, fork_change.torsion_stiffness,
+        fork_change.damping_ratio, fork_change.damping_coefficient, fork_change.damping_law);
+  state(dynamics_change.integrator, dynamics_change.step, dynamics_change.tolerance, edit);
 }
 
 simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation) {

@@ -30,12 +30,12 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
                                  " is missing from the recording: the next one is " + std::to_string(entry.index));
   }
   ++next_;
-  go_to(entry.committed, at_stop);
+  advance_to_entry(entry.committed, at_stop);
   std::visit([&](const auto& what) { apply(what); }, entry.what);
   if (change != nullptr) at_stop(simulation_.front(), {});
 }
 
-void Replayer::go_to(double t, const AtStop& at_stop) {
+void Replayer::advance_to_entry(double t, const AtStop& at_stop) {
   simulation::Simulation& simulation = simulation_.front();
   for (double edge = simulation.next_edge(); edge <= t; edge = simulation.next_edge()) {
     const simulation::AdvanceReport report = simulation.advance(edge);
@@ -50,7 +50,7 @@ void Replayer::apply(const Accepted& accepted) {
   simulation::Simulation& simulation = simulation_.front();
   if (accepted.hand >= simulation.hands()) {
     validation::refuse("journal", "stylus", std::to_string(accepted.hand + 1),
-                       "at most " + std::to_string(simulation.hands()) + ", as the state before says");
+                       "at most " + std::to_string(simulation.hands()) + ", as in the preceding state");
   }
   if (const auto press = Accepted::press_of(accepted.kind)) {
     simulation.push_press(accepted.t, *press, accepted.hand);
@@ -87,8 +87,8 @@ void Replayer::apply(const Change& change) {
   simulation_.front().restore(change.state);
 }
 
-/// Whether enough is known for it: what is taken back may be from before the journal. A change that could not be made
-/// in the live run cannot be made now either.
+/// Repeats a change. Returns false if that is impossible: an undone edit may be from before the journal, and a change
+/// that failed in the live run fails again.
 bool Replayer::make_again(const Change& change) {
   simulation::Simulation& simulation = simulation_.front();
   const Command::Kind kind = change.command.kind;

@@ -49,7 +49,7 @@ PredictionError LookAhead::compare(const simulation::Simulation& committed) {
     worst.position = std::max(worst.position, error);
     worst.angle = std::max(worst.angle, math::turn_between(X, shown.at.X).norm());
     errors_.push_back(error);
-    if (errors_.size() > most_errors) errors_.pop_front();
+    if (errors_.size() > max_errors) errors_.pop_front();
   }
   before_ = now;
   return worst;
@@ -58,8 +58,7 @@ PredictionError LookAhead::compare(const simulation::Simulation& committed) {
 double LookAhead::position_error_99() const {
   if (errors_.empty()) return 0.0;
   std::vector<double> sorted(errors_.begin(), errors_.end());
-  const auto at =
-      sorted.begin() + static_cast<std::ptrdiff_t>(share_of_errors * static_cast<double>(sorted.size() - 1));
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(error_quantile * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), at, sorted.end());
   return *at;
 }

@@ -7,7 +7,7 @@ namespace spring_workbench::live {
 void Pace::committed(double simulated, double took, double lag) {
   if (!(simulated > 0.0)) return;
   const double cost = took / simulated;
-  cost_ = cost_ > 0.0 ? cost_ + share_of_new_cost * (cost - cost_) : cost;
+  cost_ = cost_ > 0.0 ? cost_ + new_cost_weight * (cost - cost_) : cost;
   behind_ |= lag > longest_lag && work(lag) > longest_lag;
 }
 

@@ -14,7 +14,7 @@ void SharedStates::follow(const simulation::Simulation& simulation) {
   size_ = states.size();
   Parts parts = *parts_;
   parts.resize((size_ + part_size - 1) / part_size);
-  std::size_t next = 0;  // part that has not been taken over
+  std::size_t next = 0;  // next part to take over
   for (const std::size_t object : changed) {
     const std::size_t part = part_of(object), begin = begin_of(part), end = std::min(begin + part_size, size_);
     if (part < next) continue;

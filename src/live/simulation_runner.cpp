@@ -8,12 +8,12 @@
 #include "constants.h"
 
 namespace spring_workbench::live {
-SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what, Command command)
+SimulationRunner::RecordedChange::RecordedChange(SimulationRunner& runner, std::string what, Command command)
     : runner_(runner), what_(std::move(what)), command_(std::move(command)), committed_(runner.feed_.committed()) {
   if (runner_.keeps_journal_) hash_before_ = runner_.simulation_.state_hash();
 }
 
-SimulationRunner::Noted::~Noted() {
+SimulationRunner::RecordedChange::~RecordedChange() {
   ++runner_.revision_;
   runner_.ahead_.restart();
   if (!runner_.keeps_journal_) return;
@@ -57,7 +57,7 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   if (const std::optional<double> stop = feed_.next_stop(now)) commit(*stop, report);
   report.more = feed_.next_stop(now).has_value();
   for (HandInput& input : inputs_) input.add_to(report);
-  report.input_age += feed_.waited(now);
+  report.input_age += feed_.time_since_arrival(now);
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const double lag = simulation_.newest_sample() - simulation_.time();
   if (!simulated_time_) pace_.committed(report.advance.simulated_time, report.wall_time, lag);
@@ -72,21 +72,20 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
       const auto* epoch = std::get_if<NewEpoch>(&input.waiting.front());
       const bool restarts = epoch != nullptr && !joins(input, *epoch);
       if (restarts && simulated_time_ && feed_.next_stop(now)) break;
-      // Input from before a time jump that another hand has already reported is useless.
-      if (times_.knows(input.hand) || epoch != nullptr) feed(input, input.waiting.front());
+      if (times_.knows(input.hand) || epoch != nullptr) feed(input, input.waiting.front());  // else from before a jump
       input.waiting.pop_front();
     }
   }
 }
 
-/// Behind, no pose is taken; what buttons did and sensors measured counts at the newest that was.
+/// While behind, poses are dropped, and buttons and sensors act at the time of the newest accepted pose.
 void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   was_behind_ |= pace_.is_behind();
   if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event)) {
     return std::visit([&](const auto& e) { apply(input, e); }, event);
   }
   const double newest = simulation_.newest_sample();
-  if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.heard(pose->arrival, input.hand);
+  if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.report_arrival(pose->arrival, input.hand);
   if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_press(newest, button->press, input.hand);
   if (const auto* wrench = std::get_if<StylusWrench>(&event)) push(input, *wrench, newest);
 }
@@ -100,7 +99,8 @@ void SimulationRunner::commit(double stop, CycleReport& report) {
 
 std::optional<Shown> SimulationRunner::show(double latency, const hand_input::LocalTime& now, const Wanted& wanted) {
   const Lock lock(mutex_);
-  const double horizon = latency > 0.0 ? std::min(latency + feed_.waited(now), motion::PosePredictor::farthest) : 0.0;
+  const double horizon =
+      latency > 0.0 ? std::min(latency + feed_.time_since_arrival(now), motion::PosePredictor::farthest) : 0.0;
   const double beyond = ahead_.show_newest(simulation_, feed_, horizon, pace_);
   const simulation::Simulation& shown = ahead_.shown();
   const Moment at = moment_at(shown.time(), feed_.has_sample());
@@ -130,8 +130,7 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   input.monitor.restart();
 }
 
-/// A hand's time as the simulation's [s]. What lies further ahead than anybody simulates comes a step after all that is
-/// known, and all hands' times with it.
+/// A hand's time as simulation time [s]. If too far ahead, all hands' times move to a step after the newest input.
 double SimulationRunner::time_of(const HandInput& input, double t) {
   const double ahead = times_.time_of(input.hand, t) - std::max(simulation_.time(), simulation_.newest_sample());
   if (feed_.has_sample() && ahead > (was_behind_ ? 0.0 : longest_catch_up)) {
@@ -167,7 +166,7 @@ void SimulationRunner::restart_with(const std::string& what, Command::Kind kind)
   Command command;
   command.kind = kind;
   command.places = std::exchange(places_, {});
-  const Noted noted(*this, what, command);
+  const RecordedChange noted(*this, what, command);
   undo_.perform(command, simulation_);
   task_.reset();
   feed_.restart();
@@ -182,7 +181,7 @@ void SimulationRunner::restart() {
 
 simulation::ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
   const Lock lock(mutex_);
-  const Noted noted(*this, what, command);
+  const RecordedChange noted(*this, what, command);
   simulation::ChangeReport report = undo_.perform(command, simulation_);
   const bool taken_back = command.kind == Command::Kind::undo;
   if (taken_back || command.kind == Command::Kind::edit) scene_changed();
@@ -196,7 +195,6 @@ std::string SimulationRunner::undo() {
   return change("undo", command).message;
 }
 
-/// The simulations are made without the lock: they may take their time.
 void SimulationRunner::load(const scene::Scene& scene) {
   const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
   Command command;
@@ -214,8 +212,8 @@ void SimulationRunner::resume(const scene::Scene& scene, const simulation::Simul
 
 void SimulationRunner::begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
                                   LookAhead ahead, std::map<std::string, RigidTransform> places) {
-  const Lock lock(mutex_);
-  const Noted noted(*this, what, command);
+  const Lock lock(mutex_);  // only now, because making the simulations may take long
+  const RecordedChange noted(*this, what, command);
   places_ = std::move(places);
   undo_ = Undo();
   simulation_ = std::move(simulation);
@@ -236,7 +234,7 @@ void SimulationRunner::keep_journal(bool keep) {
   feed_.record([this](const hand_input::Accepted& accepted) {
     journal_.note(accepted.committed, times_.stamp_of(accepted.t), accepted);
   });
-  const Noted noted(*this, "the journal begins", {});
+  const RecordedChange noted(*this, "the journal begins", {});
 }
 
 void SimulationRunner::note_state() {

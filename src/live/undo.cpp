@@ -9,7 +9,7 @@ std::map<std::string, RigidTransform> put_to_rest(simulation::Simulation& simula
   std::map<std::string, RigidTransform> places;
   for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
   simulation.reset();
-  simulation.advance(now);  // no hand is known: to there without a step
+  simulation.advance(now);  // without samples this takes no steps
   simulation.reset();
   simulation.place(places);
   return places;
@@ -22,7 +22,7 @@ simulation::ChangeReport Undo::perform(const Command& command, simulation::Simul
   simulation::SimulationState before = simulation.save();
   simulation::ChangeReport report = live::perform(command, simulation);
   before_.emplace_back(reset ? "reset" : report.message, std::move(before));
-  if (before_.size() > most_undone) before_.pop_front();
+  if (before_.size() > max_undo_steps) before_.pop_front();
   return report;
 }
 

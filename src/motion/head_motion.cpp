@@ -6,7 +6,7 @@ namespace spring_workbench::motion {
 
 RigidTransform HeadMotion::follow(double stamp, const RigidTransform& X_FH, double now, double latency) {
   if (stamp != stamp_) {
-    // A head that was lost, or whose clock was set, has another motion.
+    // After a loss, or after the clock was set, earlier samples do not predict the motion.
     if (stamp < stamp_ || stamp > stamp_ + head_dropout) predictor_.restart();
     predictor_.push({stamp, X_FH});
     stamp_ = stamp;

@@ -4,7 +4,7 @@
 namespace spring_workbench::motion {
 namespace {
 
-/// Whether a rotation from `a` to `b` with these rates at its ends is none.
+/// Whether the orientation is constant: the same at `a` and `b`, with zero rates at both ends.
 bool no_turn(const PoseSample& a, const Vector3d& w_a, const PoseSample& b, const Vector3d& w_b) {
   return w_a.isZero(0.0) && w_b.isZero(0.0) && a.X.linear() == b.X.linear();
 }
@@ -47,7 +47,7 @@ SPRING_WORKBENCH_INLINE MotionSegment::Turn<S> MotionSegment::turn(const S& u, d
 MotionSegment MotionSegment::of_frame(const RigidTransform& X_BC) const {
   MotionSegment moved = *this;
   moved.X_BC_ = X_BC_ * X_BC;
-  moved.elsewhere_ = true;
+  moved.has_offset_ = true;
   return moved;
 }
 
@@ -61,7 +61,7 @@ FrameForcing<math::Pack> MotionSegment::at_frame(const FrameForcing<math::Pack>&
 
 OwnAxesMotion MotionSegment::in_own_axes(double t) const {
   const OwnAxesMotion of_B = of_samples(t);
-  if (!elsewhere_) return of_B;
+  if (!has_offset_) return of_B;
   const Matrix3d& R_WB = of_B.X.linear();
   const Vector3d& p = X_BC_.translation();
   const Vector3d& w = of_B.w_B;
@@ -76,7 +76,7 @@ OwnAxesMotion MotionSegment::in_own_axes(double t) const {
 
 FrameForcing<math::Pack> MotionSegment::forcing(const math::Pack& t, double gravity) const {
   const FrameForcing<math::Pack> of_B = of_samples(t, gravity);
-  return elsewhere_ ? at_frame(of_B) : of_B;
+  return has_offset_ ? at_frame(of_B) : of_B;
 }
 
 OwnAxesMotion MotionSegment::of_samples(double t) const {

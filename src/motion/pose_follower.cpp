@@ -8,7 +8,7 @@
 namespace spring_workbench::motion {
 namespace {
 
-/// Fraction of a path of this length that is covered in `dt`.
+/// Fraction of a path of this length that is covered in `dt` [s].
 double share(double path, double dt, double max_rate) {
   const double free = -std::expm1(-dt / PoseFollower::time_constant);
   return path * free > max_rate * dt ? max_rate * dt / path : free;

@@ -22,7 +22,7 @@ void check_sample(const PoseSample& sample) {
   }
   const Matrix3d R = sample.X.linear();
   const double defect = (R.transpose() * R - Matrix3d::Identity()).norm();
-  if (!(defect < rotation_tolerance && R.determinant() > 0.0)) {  // also where it is not a number
+  if (!(defect < rotation_tolerance && R.determinant() > 0.0)) {  // also true for NaN
     std::ostringstream text;
     text << R.format(Eigen::IOFormat(6, Eigen::DontAlignCols, " ", "; "));
     validation::refuse(where, "rotation", text.str(), "a right-handed orthonormal matrix");
@@ -88,7 +88,7 @@ std::size_t PoseTrack::index_at(double t) const {
 }
 
 void PoseTrack::forget_before(double t) {
-  // The segment at t may still need the sample before its own for its velocities.
+  // The segment at t may still need the sample before its start for its velocities.
   while (nodes_.size() > 2 && nodes_[2].sample.t <= t) nodes_.pop_front();
 }
 
@@ -128,7 +128,7 @@ PoseTrack::Node PoseTrack::with_velocity(std::size_t k) const {
     const double s_2 = after.t - here.t;
     node.v_W = parabola_slope(s_1, displacement(here, before), s_2, displacement(here, after));
     node.w_B = parabola_slope(s_1, math::turn_between(here.X, before.X), s_2, math::turn_between(here.X, after.X));
-  } else {  // an end: the chord
+  } else {  // at an end: the chord
     const PoseSample& other = nodes_[has_before ? k - 1 : k + 1].sample;
     const double s = other.t - here.t;
     node.v_W = displacement(here, other) / s;

@@ -37,7 +37,7 @@ void Proxy::rest(const RigidTransform& before, const MotionState& now) {
   rate_ = math::shifted(Twist{-carried.v, -(X.linear() * carried.w_own)}, -X.translation());
 }
 
-void Proxy::kick(const Twist& change, const Vector3d& p) {
+void Proxy::add_rate(const Twist& change, const Vector3d& p) {
   behind_ = true;
   rate_ = sum(rate_, math::shifted(change, -p));
 }
@@ -49,7 +49,7 @@ Twist Proxy::rate_to(const RigidTransform& offset, const Vector3d& hand, double 
   return math::shifted(rate, -p);
 }
 
-RigidTransform Proxy::returned(double left) const {
+RigidTransform Proxy::reduced_to(double left) const {
   if (!behind_) return offset_;
   RigidTransform X;
   X.linear() = math::exp_so3(left * math::log_so3(offset_.linear()));

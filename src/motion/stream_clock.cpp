@@ -29,26 +29,26 @@ WallMoment WallClock::read(std::int64_t wall, std::int64_t steady) {
 StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
   if (!newest_) return begin(stamp, now);
   const double own_age = age(stamp, now), as_this_host = seconds(now.now - stamp + now.steps);
-  const double off = std::abs(own_age - usual_age_);
-  if (off > clock_slip && std::abs(as_this_host - usual_age_) < off) {
+  const double off = std::abs(own_age - smallest_age_);
+  if (off > clock_slip && std::abs(as_this_host - smallest_age_) < off) {
     step_to(now.steps);
     return StampResult::stepped;
   }
   StampResult result = StampResult::fits;
   if (own_age > max_age_) result = StampResult::too_old;
-  if (own_age < usual_age_ - clock_slip) result = StampResult::from_the_future;
+  if (own_age < smallest_age_ - clock_slip) result = StampResult::from_the_future;
   if (seconds(*newest_ - stamp) > clock_slip) result = StampResult::not_later;
   if (result != StampResult::fits) {
     if (!arrives_evenly({stamp, own_age})) return result;
     const auto younger = [](const Stamped& a, const Stamped& b) { return a.age < b.age; };
-    const double least = std::min_element(misfits_.begin(), misfits_.end(), younger)->age;
-    step_to(offset_ + std::llround(1e9 * (usual_age_ - least)));
+    const double least = std::min_element(unmatched_.begin(), unmatched_.end(), younger)->age;
+    step_to(offset_ + std::llround(1e9 * (smallest_age_ - least)));
     return StampResult::stepped;
   }
-  usual_age_ = std::min(own_age, usual_age_ + clock_drift * seconds(now.now - arrival_));
+  smallest_age_ = std::min(own_age, smallest_age_ + clock_drift * seconds(now.now - arrival_));
   newest_ = std::max(*newest_, stamp);
   arrival_ = now.now;
-  misfits_.clear();
+  unmatched_.clear();
   return result;
 }
 
@@ -63,7 +63,7 @@ StampResult StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
   const double first_age = age(stamp, now);
   if (first_age > max_age_) return StampResult::too_old;
   if (first_age < -max_age_) return StampResult::from_the_future;
-  usual_age_ = first_age;
+  smallest_age_ = first_age;
   newest_ = stamp;
   arrival_ = now.now;
   return StampResult::fits;
@@ -72,20 +72,20 @@ StampResult StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
 void StreamClock::step_to(std::int64_t offset) {
   *newest_ += offset - offset_;
   offset_ = offset;
-  misfits_.clear();
+  unmatched_.clear();
   ++steps_;
 }
 
-/// Returns whether this message, and those before it that did not fit either, arrive as evenly as they are stamped.
-/// Messages that waited in a queue and arrive at once do not.
+/// Returns whether this message and the preceding rejected ones arrived as evenly as they are stamped. Messages that
+/// waited in a queue and arrive all at once did not.
 bool StreamClock::arrives_evenly(const Stamped& message) {
-  if (!misfits_.empty() && message.stamp <= misfits_.back().stamp) misfits_.clear();
-  misfits_.push_back(message);
-  while (misfits_.size() > step_messages && seconds(message.stamp - misfits_[1].stamp) >= step_span)
-    misfits_.pop_front();
-  const double span = seconds(message.stamp - misfits_.front().stamp);
-  return misfits_.size() >= step_messages && span >= step_span &&
-         std::abs(message.age - misfits_.front().age) < 0.5 * span;
+  if (!unmatched_.empty() && message.stamp <= unmatched_.back().stamp) unmatched_.clear();
+  unmatched_.push_back(message);
+  while (unmatched_.size() > step_messages && seconds(message.stamp - unmatched_[1].stamp) >= step_span)
+    unmatched_.pop_front();
+  const double span = seconds(message.stamp - unmatched_.front().stamp);
+  return unmatched_.size() >= step_messages && span >= step_span &&
+         std::abs(message.age - unmatched_.front().age) < 0.5 * span;
 }
 
 }  // namespace spring_workbench::motion

@@ -15,7 +15,7 @@ namespace {
 const char* const kFields[] = {"t", "x", "y", "z", "qx", "qy", "qz", "qw", "button"};
 constexpr std::size_t kFieldsWithoutButton = 8;
 constexpr std::size_t kFieldsWithButton = 9;
-// The times of day and places that a PoseTrack takes.
+// The times and positions that a PoseTrack accepts.
 
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream in(line.substr(0, line.find('#')));
@@ -24,7 +24,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// In long double, so that differences of stamps since 1970 keep their nanoseconds.
+/// Uses long double so that differences of stamps since 1970 are exact to the nanosecond.
 long double read_word(const std::string& word, const std::string& where, const std::string& field,
                       const validation::NumberRule& rule) {
   std::istringstream in(word);
@@ -36,7 +36,8 @@ long double read_word(const std::string& word, const std::string& where, const s
   return value;
 }
 
-/// To ROS time's resolution, correctly rounded: the same stamps give the same bits wherever time starts, and in a bag.
+/// Correctly rounded to the resolution of ROS time, so that the same stamps give bit-identical times whatever the
+/// origin of time, and in a bag.
 double whole_nanoseconds(long double seconds) { return static_cast<double>(std::round(seconds * 1e9L)) / 1e9; }
 
 struct Line {

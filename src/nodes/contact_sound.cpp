@@ -7,7 +7,7 @@
 #include "spring_workbench/ros/common/end_in_time.h"
 #include "spring_workbench/validation/input_error.h"
 
-/// Contacts as sound. Exit status 2: bad parameters, or nowhere to play.
+/// Plays contacts as sound. Exit status 2: bad parameters, or no output for sound.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_sound");
   spring_workbench::ros_common::end_in_time(ros::isShuttingDown);

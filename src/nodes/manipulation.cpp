@@ -17,11 +17,12 @@ std::atomic<bool> end_asked{false};
 
 void ask_for_end(int) { end_asked = true; }
 
-/// roscpp's own handlers close the connection to the master before the node has deleted its parameters there.
+/// Installs signal handlers, because those of roscpp close the connection to the master before the node has deleted its
+/// parameters there.
 void end_in_order() {
   std::signal(SIGINT, ask_for_end);
   std::signal(SIGTERM, ask_for_end);
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the size of files is an error of what is written, not the node's end
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error and must not end the node
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind("shutdown", [](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& result) {
     end_asked = true;

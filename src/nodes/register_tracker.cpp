@@ -2,7 +2,8 @@
 
 #include "spring_workbench/config/command_line.h"
 
-/// Touches of known landmarks, or turning about the tip, as a file for the launch files.
+/// Registers the tracker from touches of known landmarks, or the stylus tip from pivoting, into a file for the launch
+/// files.
 int main(int argc, char** argv) {
   using namespace spring_workbench;
   return config::run_program(

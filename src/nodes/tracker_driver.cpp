@@ -8,7 +8,7 @@
 #include "spring_workbench/ros/common/end_in_time.h"
 #include "spring_workbench/validation/input_error.h"
 
-/// The tracker as tf frames and buttons. Exit status 2: bad parameters or motion file.
+/// Publishes the tracker as tf frames and buttons. Exit status 2: bad parameters or motion file.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tracker_driver");
   spring_workbench::ros_common::log_in_background();

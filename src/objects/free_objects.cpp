@@ -16,8 +16,8 @@ FreeObjects::FreeObjects(const scene::Scene& scene, int bisection_levels) : Obje
   contact_stepper_ = std::make_unique<contact::ContactStepper>(scene, *collision_, bisection_levels);
 }
 
-void FreeObjects::put_back() {
-  ObjectList::put_back();
+void FreeObjects::return_to_start() {
+  ObjectList::return_to_start();
   contacts_.reset(states_.size());
   if (scene_.contact == scene::ContactMode::dynamic)
     dynamic_stepper_ = std::make_unique<contact::DynamicStepper>(scene_);
@@ -27,7 +27,7 @@ void FreeObjects::put_back() {
   for (std::size_t i = 0; collision_ && i < states_.size(); ++i) {
     collision_->set_pose(scene_index(i), states_[i].X_WO);
   }
-  if (with_contact() && scene_.gravity > 0.0) let_fall();
+  if (with_contact() && scene_.gravity > 0.0) wake_unsupported();
 }
 
 void FreeObjects::begin(double now) {
@@ -49,26 +49,26 @@ std::string FreeObjects::inside_of(std::size_t object, const RigidTransform& X_W
   return collision_ ? collision::inside_of(*collision_, scene_, scene_index(object), X_WO) : "";
 }
 
-void FreeObjects::let_fall() {
+void FreeObjects::wake_unsupported() {
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     if (massless(i) || body(i).collision.empty() || !states_[i].asleep) continue;
     if (is_carried(*collision_, scene_index(i), states_[i].X_WO)) continue;
     set_free(i, Twist(), 0.0);
-    wake_what_lies_on(i, 0.0);
+    wake_supported_by(i, 0.0);
   }
 }
 
-void FreeObjects::wake_what_lies_on(std::size_t object, double now) {
+void FreeObjects::wake_supported_by(std::size_t object, double now) {
   if (!with_contact()) return;
   for (const std::size_t above : movable_on(*collision_, scene_, scene_index(object), states_[object].X_WO)) {
     const std::size_t other = object_of_[above];
     if (!states_[other].asleep || states_[other].held || massless(other)) continue;
     set_free(other, Twist(), now);
-    wake_what_lies_on(other, now);
+    wake_supported_by(other, now);
   }
 }
 
-void FreeObjects::let_fly(std::size_t object, double now) {
+void FreeObjects::start_free_flight(std::size_t object, double now) {
   bodies::BodyState& o = state(object);
   if (massless(object)) {
     o.asleep = true;
@@ -116,7 +116,7 @@ bool FreeObjects::carry(bodies::SteppedBody& stepped, std::size_t object, double
   return true;
 }
 
-bool FreeObjects::touches_what_moves(std::size_t object) const {
+bool FreeObjects::touches_moving_body(std::size_t object) const {
   const std::vector<contact::ContactState>& now = contacts_.touching(object);
   return std::any_of(now.begin(), now.end(), [&](const contact::ContactState& c) {
     const std::optional<std::size_t> other = find(c.other);
@@ -129,7 +129,7 @@ void FreeObjects::put_to_sleep_if_slow(std::size_t object, double now) {
   o.asleep = false;
   const double speed =
       o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
-  if (!o.in_contact || touches_what_moves(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
+  if (!o.in_contact || touches_moving_body(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
   if (o.X_WO.translation().norm() > world_limit || now - objects_[object].slow_since > asleep_after) {
     objects_[object].free_body.reset();
     free_.erase(object);

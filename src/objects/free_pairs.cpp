@@ -31,7 +31,7 @@ bool FreePairs::alone(const bodies::BodyPair& pair) const {
   };
   const auto& path = pair.path();
   for (std::size_t i = 1; i < path.size(); ++i) {
-    // For the stepper, everything else stands where it does in the frame of the second.
+    // The stepper works in the frame of the second body, in which everything else is at rest.
     if (!none_else(around_.inside(around_.box(first, path[i - 1].X_W1, path[i].X_W1))) ||
         !none_else(around_.inside(around_.box(second, path[i - 1].X_W2, path[i].X_W2))) ||
         !none_else(around_.standing(around_.box(first, path[i - 1].X_F1, path[i].X_F1))))

@@ -8,19 +8,19 @@
 
 namespace spring_workbench::objects {
 
-/// Carries two free bodies that come near each other and nothing else: as one body (bodies::BodyPair), by the step of
+/// Steps two free bodies that come near each other and nothing else, as one body (bodies::BodyPair), by the step of
 /// contact mode `stop`.
 class FreePairs {
  public:
-  /// Keeps references.
+  /// Keeps references to the arguments.
   FreePairs(const scene::Scene& scene, const collision::CollisionWorld& collision, contact::ContactStepper& stepper);
 
-  /// A step begins, of `h` [s]; nothing moves but what is added.
+  /// Starts a step of `h` [s]. Bodies that are not added are at rest.
   void begin(double h);
   void add_moving(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W);
-  /// Carries both over the step. `rows`: the contacts of the first with the second, as in
-  /// contact::ContactStepper::step, in world. Returns false if one of them comes near anything else; then none of the
-  /// arguments means anything.
+  /// Advances both by the step. `rows`: the contacts of the first with the second, as in contact::ContactStepper::step,
+  /// in world. Returns false if one of them comes near anything else; the arguments are then left in an undefined
+  /// state.
   bool step(bodies::BodyPair& pair, std::vector<contact::ContactRow>& rows, contact::ContactOutcome& outcome) const;
 
  private:

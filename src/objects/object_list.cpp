@@ -11,12 +11,12 @@ ObjectList::ObjectList(const scene::Scene& scene) : scene_(scene) {
   }
 }
 
-void ObjectList::put_back() {
+void ObjectList::return_to_start() {
   states_.clear();
   for (std::size_t i = 0; i < in_scene_.size(); ++i) states_.push_back(bodies::at_start(body(i)));
   highlighted_.clear();
   changes_.reset(states_.size());
-  put_back_ = changes_.now();
+  reset_moment_ = changes_.now();
 }
 
 std::optional<std::size_t> ObjectList::find(const std::string& name) const {

@@ -20,7 +20,7 @@ Objects::~Objects() = default;
 
 void Objects::reset() {
   in_contact_.clear();
-  put_back();
+  return_to_start();
 }
 
 void Objects::continue_from(const Objects& before, double now) {
@@ -38,7 +38,7 @@ void Objects::continue_from(const Objects& before, double now) {
     objects_[i].grasping = was.grasping;
     take_state(i, {o.X_WO, o.V_WO_W, {}});
     if (!o.asleep && !o.held) {
-      let_fly(i, now);
+      start_free_flight(i, now);
     } else if (dynamic_stepper_) {
       dynamic_stepper_->world().place(scene_index(i), o.X_WO, o.V_WO_W, false);
     }
@@ -56,7 +56,8 @@ void Objects::hold(std::size_t object, Grip grip, double now) {
   o.held = objects_[object].grasping > 0;
   if (o.held) o.highlighted = false;
   o.asleep = false;
-  if (scene_.contact == scene::ContactMode::stop) wake_what_lies_on(object, now);  // Bullet's wake by themselves
+  if (scene_.contact == scene::ContactMode::stop)
+    wake_supported_by(object, now);  // in Bullet's world they wake by themselves
 }
 
 void Objects::let_go(std::size_t object, Grip grip, bool thrown, double now) {
@@ -66,12 +67,12 @@ void Objects::let_go(std::size_t object, Grip grip, bool thrown, double now) {
   o.held = carried.grasping > 0;
   if (carried.grasping + carried.pushing > 0) return;
   if (!thrown || massless(object)) o.V_WO_W = Twist();
-  let_fly(object, now);
+  start_free_flight(object, now);
 }
 
 void Objects::place(std::size_t object, const RigidTransform& X_WO, double now) {
   take_state(object, {X_WO, Twist(), {}});
-  let_fly(object, now);
+  start_free_flight(object, now);
 }
 
 void Objects::step(const std::vector<Carried>& held, double now, double h, StepCounts& counts) {
@@ -91,28 +92,29 @@ void Objects::step_among_movable(const std::vector<Carried>& held, double now, d
   for (const std::size_t object : free_) carried.push_back({object, objects_[object].free_body.get()});
   std::vector<std::size_t> moving;
   for (const Carried& c : carried) moving.push_back(scene_index(c.object));
-  if (!free_.empty()) look_around(moving, h);
-  std::set<std::size_t> gone;  // by themselves, or in pairs
+  if (!free_.empty()) find_moving_bodies(moving, h);
+  std::set<std::size_t> stepped_objects;  // objects already stepped, alone or in pairs
   for (const Carried& c : carried) {
-    if (gone.count(c.object) > 0) continue;
+    if (stepped_objects.count(c.object) > 0) continue;
     Object& object = objects_[c.object];
     const bodies::BodyState& o = state(c.object);
     std::vector<std::size_t> near;
     const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
       near = world.movable_near(scene_index(c.object), X0_WO, X1_WO, h, moving, scene_.bodies.size());
-      // What is gone has kept clear of this one.
-      const auto is_gone = [&](std::size_t other) { return gone.count(object_of_[other]) > 0; };
-      near.erase(std::remove_if(near.begin(), near.end(), is_gone), near.end());
+      // Objects already stepped stayed clear of this one.
+      const auto is_stepped = [&](std::size_t other) { return stepped_objects.count(object_of_[other]) > 0; };
+      near.erase(std::remove_if(near.begin(), near.end(), is_stepped), near.end());
       return near.empty();
     };
     if (carry(*c.body, c.object, h, among_fixed, counts)) {
       if (object.free_body) put_to_sleep_if_slow(c.object, now + h);
-      in_contact_.erase(c.object);  // its contacts are noted already
+      in_contact_.erase(c.object);  // its contacts are already recorded
       world.place(scene_index(c.object), o.X_WO, o.V_WO_W, false);
-      gone.insert(c.object);
+      stepped_objects.insert(c.object);
       continue;
     }
-    if (object.free_body && near.size() == 1 && carry_pair(c.object, object_of_[near[0]], gone, now, h, counts))
+    if (object.free_body && near.size() == 1 &&
+        carry_pair(c.object, object_of_[near[0]], stepped_objects, now, h, counts))
       continue;
     object.rows.clear();
     if (!object.free_body) {
@@ -124,12 +126,12 @@ void Objects::step_among_movable(const std::vector<Carried>& held, double now, d
     dynamic_stepper_->set_free(scene_index(c.object), o.X_WO, o.V_WO_W);
   }
   if (!among_others.empty() || dynamic_stepper_->others_awake()) step_together(among_others, moving, now, h, counts);
-  for (const std::size_t object : gone) {
+  for (const std::size_t object : stepped_objects) {
     if (states_[object].in_contact) in_contact_.insert(object);
   }
 }
 
-void Objects::look_around(const std::vector<std::size_t>& carried, double h) {
+void Objects::find_moving_bodies(const std::vector<std::size_t>& carried, double h) {
   const rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
   pairs_->begin(h);
   for (const std::size_t body : carried) {
@@ -141,11 +143,11 @@ void Objects::look_around(const std::vector<std::size_t>& carried, double h) {
   }
 }
 
-bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::size_t>& gone, double now, double h,
-                         StepCounts& counts) {
+bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::size_t>& stepped_objects, double now,
+                         double h, StepCounts& counts) {
   const bool sleeps = states_[other].asleep;
   if (massless(other) || objects_[other].carried() || (!sleeps && !objects_[other].free_body)) return false;
-  // The heavier one turns least: the step is seen from it.
+  // The step uses the frame of the heavier body, which turns least.
   const bool lighter = body(object).mass_properties.mass < body(other).mass_properties.mass;
   const std::array<std::size_t, 2> both = lighter ? std::array{object, other} : std::array{other, object};
   const auto body_of = [&](std::size_t o) {
@@ -160,7 +162,7 @@ bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::si
   const std::array<std::vector<contact::ContactRow>, 2> told{outcome.rows, {}};
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t o = both[i];
-    if (o == other && sleeps && outcome.rows.empty()) continue;  // sleeps on
+    if (o == other && sleeps && outcome.rows.empty()) continue;  // it stays asleep
     const bodies::FreeBody& moved = i == 0 ? pair.first() : pair.second();
     const motion::MotionState s = moved.object();
     if (!objects_[o].free_body) set_free(o, s.velocity, now);
@@ -172,7 +174,7 @@ bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::si
     objects_[o].slow_since = now + h;
     contacts_.note(o, states_[o], told[i], h);
     in_contact_.erase(o);
-    gone.insert(o);
+    stepped_objects.insert(o);
   }
   return true;
 }
@@ -222,11 +224,12 @@ void Objects::note_world_contacts(double h) {
 
 std::vector<std::size_t> Objects::Archive::moved() const {
   std::vector<std::size_t> moved;
-  for (const std::size_t i : of_.changes_.since(of_.put_back_)) {
+  for (const std::size_t i : of_.changes_.since(of_.reset_moment_)) {
     const Object& object = of_.objects_[i];
-    const bool as_put_back = !object.free_body && object.rows.empty() && !object.carried() &&
-                             object.slow_since == 0.0 && same_bits(of_.states_[i], bodies::at_start(of_.body(i)));
-    if (!as_put_back) moved.push_back(i);
+    const bool unchanged_since_reset = !object.free_body && object.rows.empty() && !object.carried() &&
+                                       object.slow_since == 0.0 &&
+                                       same_bits(of_.states_[i], bodies::at_start(of_.body(i)));
+    if (!unchanged_since_reset) moved.push_back(i);
   }
   return moved;
 }
@@ -263,6 +266,6 @@ void Objects::Archive::exchange(math::StateArchive& state, const std::vector<std
   if (of_.dynamic_stepper_) state(*of_.dynamic_stepper_);
 }
 
-bool Objects::rests(std::size_t object) const { return dynamic_stepper_ ? !any_free() : !touches_what_moves(object); }
+bool Objects::rests(std::size_t object) const { return dynamic_stepper_ ? !any_free() : !touches_moving_body(object); }
 
 }  // namespace spring_workbench::objects

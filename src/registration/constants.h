@@ -4,18 +4,18 @@
 
 namespace spring_workbench::registration {
 
-// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
+// Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
 
-/// [m] RMS distance of the landmarks from a line. Less: the turn about that line is a guess. Test:
-/// Registration.WhatCannotTellThePoseIsRefused.
-constexpr double least_extent = 0.01;
-/// landmarks of which every order is tried. More: minutes; fewer: a wrong order passes. Test:
-/// Registration.EveryWrongOrderIsRefused.
-constexpr int most_permuted = 7;
-/// of the stylus that is turned about its tip. Test: PivotCalibration.TakesTenPosesAndNoFewer.
-constexpr std::size_t fewest_poses = 10;
-/// smallest singular value per root of the count: about 20° about two axes. Less: a guessed tip passes. Test:
-/// PivotCalibration.RefusesTooLittleTurningAndASlip.
-constexpr double least_turned = 0.1;
+/// Minimum RMS distance of the landmarks from a line [m]. If smaller, the rotation about that line is not determined.
+/// Test: Registration.LandmarksThatDoNotDetermineThePoseAreRefused.
+constexpr double min_extent = 0.01;
+/// Largest number of landmarks for which every order is tried. If larger, it takes minutes; if smaller, a wrong order
+/// passes. Test: Registration.EveryWrongOrderIsRefused.
+constexpr int max_permuted = 7;
+/// Minimum number of poses of the pivoting stylus. Test: PivotCalibration.TakesTenPosesAndNoFewer.
+constexpr std::size_t min_poses = 10;
+/// Minimum of the smallest singular value divided by the square root of the number of poses: about 20° about two axes.
+/// If smaller, a poorly determined tip passes. Test: PivotCalibration.RefusesTooLittleTurningAndASlip.
+constexpr double min_turning = 0.1;
 
 }  // namespace spring_workbench::registration

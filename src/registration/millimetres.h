@@ -6,7 +6,7 @@
 
 namespace spring_workbench::registration {
 
-/// `metres` in a message: "5.31 mm".
+/// Formats a length [m] for a message, e.g. "5.31 mm".
 inline std::string millimetres(double metres) {
   std::ostringstream out;
   out << std::setprecision(3) << 1e3 * metres << " mm";

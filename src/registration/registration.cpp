@@ -29,9 +29,10 @@ double rms_of(const RigidTransform& X, const Points& to, const Points& from) {
   return std::sqrt(residuals.squaredNorm() / static_cast<double>(to.cols()));
 }
 
-/// The order of touches, other than the given one, that fits best. Nothing for more landmarks than can be tried.
+/// The order of touches, other than the given one, that fits best, with its RMS. Nothing if there are too many
+/// landmarks to try all orders.
 std::optional<std::pair<double, std::vector<int>>> best_other_order(const Points& to, const Points& from) {
-  if (to.cols() > most_permuted) return std::nullopt;
+  if (to.cols() > max_permuted) return std::nullopt;
   std::vector<int> order(static_cast<std::size_t>(to.cols()));
   std::iota(order.begin(), order.end(), 0);
   std::pair<double, std::vector<int>> best{std::numeric_limits<double>::infinity(), {}};
@@ -55,9 +56,9 @@ void check_shape(const std::vector<Landmark>& landmarks, const Points& to) {
   }
   const Points centred = to.colwise() - Vector3d(to.rowwise().mean());
   const Vector3d spread = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues().head<3>();
-  if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < least_extent) {
+  if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < min_extent) {
     validation::refuse(kWhere, "landmarks", millimetres(off_line),
-                       "at least " + millimetres(least_extent) + " off a common line");
+                       "at least " + millimetres(min_extent) + " off a common line");
   }
 }
 
@@ -122,8 +123,7 @@ Registration register_tracker(const std::vector<Landmark>& landmarks, double lar
 }
 
 PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, double largest_rms) {
-  if (poses_TS.size() < fewest_poses)
-    validation::refuse(kWhere, "poses", std::to_string(poses_TS.size()), "at least 10");
+  if (poses_TS.size() < min_poses) validation::refuse(kWhere, "poses", std::to_string(poses_TS.size()), "at least 10");
   const Eigen::Index n = static_cast<Eigen::Index>(poses_TS.size());
   Eigen::MatrixXd A(3 * n, 6);
   Eigen::VectorXd b(3 * n);
@@ -135,7 +135,7 @@ PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, doub
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double turned = svd.singularValues()[5] / std::sqrt(static_cast<double>(n));
-  if (!(turned > least_turned))
+  if (!(turned > min_turning))
     throw validation::InputError(kWhere + ": poses: must be turned by at least 20 degrees about two axes");
   const Eigen::VectorXd x = svd.solve(b);
   PivotCalibration result{x.head<3>(), x.tail<3>(), std::sqrt((A * x - b).squaredNorm() / static_cast<double>(n))};

@@ -38,7 +38,7 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
   out.linear[1] = {S{}, one, S{}};
   out.linear[2] = out.linear[3] = out.linear[4] = zero;
   out.linear[5] = {S{}, S{}, one};
-  // d/dt (left Jacobian) φ̇, where what is along φ̇ × φ̇ is none.
+  // d/dt (left Jacobian) φ̇; terms along φ̇ × φ̇ vanish.
   const math::Three<S> s = cross(phi, phi_dot);
   const S t_dot = 2.0 * dot(phi, phi_dot);
   out.angular_bias = (k.b_slope * t_dot) * s + (k.c_slope * t_dot) * cross(phi, s) + k.c * cross(phi_dot, s);
@@ -55,7 +55,8 @@ SPRING_WORKBENCH_WIDE void Bushing::tips(const math::Pack* q, const math::Pack* 
 void Bushing::tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const { tips(q, q_dot, out); }
 
 RigidTransform Bushing::section(const StrainVector& q, double s) const {
-  // No curve of its own: drawn as the cubic with the end positions and slopes, rotation spread evenly.
+  // The bushing has no curve: it is drawn as the cubic with its end positions and slopes, with evenly distributed
+  // rotation.
   const double u = s / length();
   const Matrix3d R = math::exp_so3(q.segment<3>(2));
   const Vector3d tip(q[0], q[1], length() + q[5]);

@@ -8,7 +8,7 @@ namespace spring_workbench::rod {
 /// with tip position (0, 0, L) + d and tip rotation exp(φ).
 class Bushing final : public ShapeModel {
  public:
-  /// `slope_stiffness` as of ForkSettings.
+  /// `slope_stiffness`: see ForkSettings.
   Bushing(double length, std::optional<double> slope_stiffness)
       : ShapeModel(length), slope_stiffness_(slope_stiffness) {}
 

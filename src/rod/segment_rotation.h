@@ -4,7 +4,7 @@
 
 namespace spring_workbench::rod {
 
-/// A rotation, v + w with v the vector part, for one number or several.
+/// A quaternion with vector part v and scalar part w, for one number or several at once.
 template <typename S>
 struct QuaternionOf {
   math::Three<S> v;
@@ -18,7 +18,7 @@ template <typename S>
 SPRING_WORKBENCH_INLINE QuaternionOf<S> conjugate(const QuaternionOf<S>& q) {
   return {-1.0 * q.v, q.w};
 }
-/// A Newton step towards unit length: for quaternions that have left it by rounding.
+/// One Newton step towards unit length, for quaternions that are off by rounding errors.
 template <typename S>
 SPRING_WORKBENCH_INLINE QuaternionOf<S> normalised(const QuaternionOf<S>& q) {
   const S f = 1.5 - 0.5 * (dot(q.v, q.v) + q.w * q.w);
@@ -29,15 +29,15 @@ SPRING_WORKBENCH_INLINE math::ThreeByThree<S> rotation_matrix(const QuaternionOf
   return math::symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
 }
 
-/// The rotation along a segment of a rod whose strain is linear in the arc length, as a power series of its quaternion
-/// about the middle. The series of q' = ½ q (a + b u) converges for every strain; segments that turn by less than 2.5
-/// rad leave 1e-13.
+/// The rotation along a rod segment whose strain is linear in arc length, as a power series of its quaternion about the
+/// middle. The series of q' = ½ q (a + b u) converges for every strain; for segments that turn by less than 2.5 rad,
+/// its error is at most 1e-13.
 template <typename S>
 class SegmentRotation {
  public:
   /// The strain over the segment of length h is (a + b u) / h for u = −½ … ½. `angle`: a bound of |a| + |b| / 2 [rad].
   SPRING_WORKBENCH_INLINE SegmentRotation(const math::Three<S>& a, const math::Three<S>& b, double angle) {
-    pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : most_pairs;
+    pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : max_pairs;
     c_[0] = {math::none<S>(), S{} + 1.0};
     c_[1] = {0.5 * a, S{}};
     for (int n = 1; n + 1 < 2 * pairs_; ++n) {
@@ -50,7 +50,7 @@ class SegmentRotation {
   struct Two {
     QuaternionOf<S> before, after;
   };
-  /// Rotation from the middle of the segment to −u and u.
+  /// Rotations from the middle of the segment to −u and to u.
   SPRING_WORKBENCH_INLINE Two at(double u) const {
     const double t = u * u;
     QuaternionOf<S> even = c_[2 * pairs_ - 2], odd = c_[2 * pairs_ - 1];
@@ -62,14 +62,14 @@ class SegmentRotation {
   }
 
  private:
-  static constexpr int most_pairs = 11;
+  static constexpr int max_pairs = 11;
 
   SPRING_WORKBENCH_INLINE static QuaternionOf<S> times(const QuaternionOf<S>& q, const math::Three<S>& v) {
     return {q.w * v + math::cross(q.v, v), S{} - dot(q.v, v)};
   }
 
   int pairs_;
-  QuaternionOf<S> c_[2 * most_pairs];
+  QuaternionOf<S> c_[2 * max_pairs];
 };
 
 }  // namespace spring_workbench::rod

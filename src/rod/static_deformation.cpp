@@ -10,29 +10,33 @@
 namespace spring_workbench::rod {
 namespace {
 
-constexpr double difference = 1e-6;  ///< of the tip's way, for slopes
-constexpr double digits = 1e-8;      ///< of a strain far off, for the same
-constexpr double done = 1e-10;  ///< change of the tip over its displacement; the next one is smaller by `difference`
-constexpr double first_reach = 1.0;  ///< change of the tip over which the slope is taken to mean something
-constexpr double longer = 4.0;       ///< factor by which the reach grows if it did
-constexpr double overshot = 0.5;     ///< of the force along a change that may be left, reversed, at its end
-constexpr int most_changes = 60;     ///< after which the residual is reported
-constexpr int most_search_halvings = 40;
+constexpr double difference = 1e-6;  ///< step for numerical derivatives, as a fraction of the tip's displacement
+constexpr double digits = 1e-8;      ///< the same relative to a large strain
+constexpr double done = 1e-10;  ///< tolerance: change of the tip relative to its displacement; the next change would be
+                                ///< smaller by the factor `difference`
+constexpr double first_reach =
+    1.0;  ///< trust region at the start: largest change of the tip for which the derivative is used
+constexpr double longer = 4.0;  ///< factor by which the trust region grows after a good step
+constexpr double overshot =
+    0.5;  ///< fraction of the force along a change that may remain, with opposite sign, at its end
+constexpr int max_changes = 60;  ///< maximum number of iterations; the residual is then reported
+constexpr int max_search_halvings = 40;
 constexpr int halvings_to_stop = 52;
-constexpr double flat = 1e-12;  ///< of the largest stiffness: one that is none
+constexpr double flat = 1e-12;  ///< fraction of the largest stiffness below which a stiffness counts as zero
 
 }  // namespace
 
-/// Scaled by the springs: x = √K q, so that of small loads the matrix is near 1.
+/// Derivative in coordinates scaled by the springs, x = √K q, so that the matrix is near the identity for small loads.
 struct StaticDeformation::Slope {
-  StrainMatrix A;      ///< of the scaled force by the scaled coordinates
+  StrainMatrix A;      ///< derivative of the scaled force with respect to the scaled coordinates
   StrainVector scale;  ///< 1 / √K
-  StrainVector moves;  ///< the tip, per unit of q; the stretch, which is linear, counts as none
+  StrainVector moves;  ///< displacement of the tip per unit of q; 0 for the stretch, which is linear
   math::SymmetricModes modes;
 
   bool is_stable() const { return modes.values.minCoeff() > flat * largest(); }
   double largest() const { return modes.values.cwiseAbs().maxCoeff(); }
-  /// With every mode's stiffness taken as positive: downhill at a maximum and a saddle, too.
+  /// Inverse with the absolute values of the eigenvalues, so that it gives a descent direction at a maximum or saddle,
+  /// too.
   StrainMatrix inverse() const {
     const StrainVector d = modes.values.cwiseAbs().cwiseMax(flat * largest()).cwiseInverse();
     return modes.vectors * d.asDiagonal() * modes.vectors.transpose();
@@ -78,7 +82,7 @@ StaticDeformation::Slope StaticDeformation::slope(const StrainVector& q, const B
     StrainVector ahead = q;
     ahead[c] += difference / std::max(moved, 1e-3 * length) + digits * std::abs(q[c]);
     const double step = ahead[c] - q[c];
-    // The load's alone: the springs' own part is 1, so that none, stiff or soft, costs digits.
+    // Only the load's part: that of the springs is exactly 1, so it causes no cancellation, stiff or soft.
     const StrainVector rise = here - force(ahead);
     for (int i = 0; i < b.count; ++i) s.A(i, j) = s.scale[i] * s.scale[j] * rise[b.index[i]] / step + (i == j);
     s.moves[j] = c == shape_.stretch().begin ? 0.0 : moved;
@@ -113,7 +117,7 @@ bool StaticDeformation::stop(const StrainVector& change, Block& b, StrainVector&
 
 StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const {
   double reach = first_reach;
-  for (int n = 0; n < most_changes && b.count > 0; ++n) {
+  for (int n = 0; n < max_changes && b.count > 0; ++n) {
     const StrainVector unbalanced = imbalance(q);
     const Slope s = slope(q, b);
     const auto of_block = [&](const StrainVector& all) {
@@ -128,8 +132,8 @@ StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const
     if (moved > reach) change *= reach / moved;
     if (stop(change, b, q)) continue;
     bool went = false;
-    // At its end the force along the change has fallen, and has not grown the other way.
-    for (int halving = 0; halving < most_search_halvings; ++halving, change *= 0.5) {
+    // Accept the change if the force along it has decreased at its end and has not overshot.
+    for (int halving = 0; halving < max_search_halvings; ++halving, change *= 0.5) {
       StrainVector tried = q;
       for (int i = 0; i < b.count; ++i) tried[b.index[i]] += change[i];
       if (!shape_.admissible(tried)) continue;

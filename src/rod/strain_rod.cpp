@@ -10,12 +10,13 @@
 namespace spring_workbench::rod {
 namespace {
 
-constexpr int most_nodes = 8;              ///< of the quadrature on a segment
-constexpr double angle_per_segment = 2.5;  ///< [rad]; tip and Jacobian are exact to 1e-10 there
-constexpr double wave_of_six = 1.6;        ///< as wave(); six nodes are as exact up to there
-constexpr double wave_of_five = 0.8;       ///< and five up to here
-constexpr double most_turned = 64.0;       ///< [rad]; a rod wound up further is refused
-constexpr double least_stretch = 0.02;     ///< of the rest length; a rod compressed further is refused
+constexpr int max_nodes = 8;               ///< maximum number of quadrature nodes per segment
+constexpr double angle_per_segment = 2.5;  ///< [rad]; tip and Jacobian are accurate to 1e-10 up to this angle
+constexpr double wave_of_six = 1.6;        ///< largest wave() for which six nodes are as accurate
+constexpr double wave_of_five = 0.8;       ///< largest wave() for which five nodes are as accurate
+constexpr double max_turning = 64.0;       ///< [rad]; a rod that is wound up further is not admissible
+constexpr double min_stretch =
+    0.02;  ///< fraction of the rest length; a rod that is compressed further is not admissible
 
 template <int nodes>
 const math::GaussLegendre<nodes>& rule() {
@@ -29,7 +30,7 @@ StrainRod::StrainRod(double length, int bend_terms) : ShapeModel(length), bend_t
 
 StrainVector StrainRod::stiffness(const PerDof& k) const {
   const double L = length();
-  // One constant curvature cannot follow the cantilever's linear one: L³/4 makes small tip deflections agree.
+  // A constant curvature cannot match the cantilever's linear one; with L³/4 small tip deflections agree.
   const double EI = k.bend * L * L * L / (bend_terms_ == 1 ? 4.0 : 3.0);
   StrainVector K(size());
   for (int axis = 0; axis < 2; ++axis) {
@@ -58,8 +59,8 @@ SPRING_WORKBENCH_INLINE double StrainRod::wave(const LinearStrain<S>& k, double 
   return std::sqrt(angle * angle + 4.0 * length() * length() * std::sqrt(math::largest(dot(k.slope, k.slope))));
 }
 
-int StrainRod::segments(double angle) const {  // of NaN the most, as of what is too large
-  return 1 + static_cast<int>(std::min(most_turned, angle) / angle_per_segment);
+int StrainRod::segments(double angle) const {  // NaN gives the maximum, like an angle that is too large
+  return 1 + static_cast<int>(std::min(max_turning, angle) / angle_per_segment);
 }
 
 template <int nodes, typename S>
@@ -71,12 +72,12 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   const math::GaussLegendre<nodes>& gauss = rule<nodes>();
   const math::Three<S> zero = math::none<S>();
 
-  // Integrals from the handle to the start of the segment, then to the tip. Velocities in the axes of H.
+  // Integrals from the handle to the start of the segment, finally to the tip. Velocities in H axes.
   QuaternionOf<S> turned{zero, S{} + 1.0};
   math::Three<S> p = zero;  // ∫ d3 (position at unit stretch)
   math::Three<S> w = zero;  // ∫ R k̇
-  // Moments about the handle; they are shifted to the tip at the end: ∫ f × (p_tip − p) = (∫ f) × p_tip − ∫ f × p.
-  // For d1 and d2, then the same times σ = −1 … 1 along the rod, then d3.
+  // Moments about the handle, which are shifted to the tip at the end: ∫ f × (p_tip − p) = (∫ f) × p_tip − ∫ f × p.
+  // Order: d1 and d2, the same times σ = −1 … 1 along the rod, d3.
   math::Three<S> f[5] = {zero, zero, zero, zero, zero};          // ∫ P_j R e
   math::Three<S> f_cross_p[5] = {zero, zero, zero, zero, zero};  // ∫ P_j R e × p
   math::Three<S> bias = zero;                                    // ∫ w × R k̇
@@ -162,7 +163,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::tip_of(const S* q, const S* q_dot, TipOf
   const double most = wave(k, angle);
   if (most < wave_of_five) return integrate<5>(q, q_dot, 1, angle, out);
   if (most < wave_of_six) return integrate<6>(q, q_dot, 1, angle, out);
-  return integrate<most_nodes>(q, q_dot, segments(angle), angle, out);
+  return integrate<max_nodes>(q, q_dot, segments(angle), angle, out);
 }
 
 SPRING_WORKBENCH_WIDE void StrainRod::one_tip(const double* q, const double* q_dot, TipOf<double>& out) const {
@@ -180,7 +181,7 @@ double StrainRod::twist(const StrainVector& q) const { return q[torsion().begin]
 
 RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   const LinearStrain<double> k = curvature(q.data());
-  const math::GaussLegendre<most_nodes>& gauss = rule<most_nodes>();
+  const math::GaussLegendre<max_nodes>& gauss = rule<max_nodes>();
   const double angle = turned_angle(k) * s / length();
   const int count = segments(angle);
   const double h = s / count;
@@ -191,7 +192,7 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
                                            (h * h) * k.slope, angle / count);
     const auto ends = rotation.at(0.5);
     const QuaternionOf<double> to_middle = turned * conjugate(ends.before);
-    for (int i = 0; i < most_nodes / 2; ++i) {
+    for (int i = 0; i < max_nodes / 2; ++i) {
       const auto both = rotation.at(0.5 - gauss.nodes[i]);
       p += (h * gauss.weights[i]) *
            (rotation_matrix(to_middle * both.before).z + rotation_matrix(to_middle * both.after).z);
@@ -203,7 +204,7 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
 }
 
 double StrainRod::range_used(const StrainVector& q) const {
-  return std::max(-q[stretch().begin] / (1.0 - least_stretch), turned_angle(curvature(q.data())) / most_turned);
+  return std::max(-q[stretch().begin] / (1.0 - min_stretch), turned_angle(curvature(q.data())) / max_turning);
 }
 
 }  // namespace spring_workbench::rod

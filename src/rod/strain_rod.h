@@ -29,19 +29,19 @@ class StrainRod final : public ShapeModel {
   };
   template <typename S>
   LinearStrain<S> curvature(const S* q) const;
-  /// Upper bound of the angle through which the rod is turned [rad].
+  /// Upper bound of the angle by which the rod turns along its length [rad].
   template <typename S>
   double turned_angle(const LinearStrain<S>& k) const;
-  /// By how much the quadrature's integrand is multiplied with each derivative, over the whole rod: where the strain
-  /// changes along it, the ten to twelve derivatives that count are larger than those of the angle alone, as those of
-  /// exp(i b u²/2) are.
+  /// Factor by which the integrand of the quadrature grows with each derivative, over the whole rod. If the strain
+  /// varies along the rod, the ten to twelve relevant derivatives are larger than the angle alone suggests, like those
+  /// of exp(i b u²/2).
   template <typename S>
   double wave(const LinearStrain<S>& k, double angle) const;
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
   void one_tip(const double* q, const double* q_dot, TipOf<double>& out) const;
   void tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const;
-  /// The tip by `count` segments of the rod with `nodes` nodes each; `angle`: as turned_angle().
+  /// Computes the tip with `count` segments of `nodes` quadrature nodes each; `angle`: see turned_angle().
   template <int nodes, typename S>
   void integrate(const S* q, const S* q_dot, int count, double angle, TipOf<S>& out) const;
   int segments(double angle) const;

@@ -9,24 +9,25 @@ namespace spring_workbench::rod {
 namespace {
 
 constexpr int n = max_strain_coordinates;
-constexpr int most_iterations = 60;
-constexpr int most_fit_halvings = 12;
-/// Fraction of the remaining distance that a step must promise; otherwise the rod is as close to the pose as it gets.
-constexpr double least_progress = 1e-3;
-constexpr double to_the_end = 1e-9;  ///< relative precision of a change that the end of the rod's range cuts short
+constexpr int max_iterations = 60;
+constexpr int max_fit_halvings = 12;
+/// Fraction of the remaining distance by which a step must be predicted to reduce it; otherwise the rod cannot get
+/// closer to the pose.
+constexpr double min_progress = 1e-3;
+constexpr double to_the_end = 1e-9;  ///< relative precision of a change that ends at the limit of the rod's range
 /// Change of the last iteration, relative to the rod's length or in radians. Newton's method converges quadratically,
-/// so no error is left after it.
+/// so the remaining error is below rounding.
 constexpr double last_change = 3e-8;
 /// Largest step towards the pose, relative to the rod's length or in radians.
 constexpr double farthest = 0.5;
 /// Largest deviation of a change from the one that the Jacobian predicts, relative to it; a larger one may lead to
 /// another solution.
-constexpr double most_nonlinearity = 0.5;
-/// Smallest singular value of the scaled Jacobian of a regular rod: that of a straight rod compressed to the end of its
-/// range (uncompressed: 0.1). In a direction in which the tip moves less, the rod is at the end of what it can do.
-constexpr double least_motion = 1e-3;
+constexpr double max_nonlinearity = 0.5;
+/// Smallest singular value of the scaled Jacobian that counts as regular: that of a straight rod compressed to the end
+/// of its range (uncompressed: 0.1). In a direction with a smaller one, the tip is at the boundary of its workspace.
+constexpr double min_motion = 1e-3;
 
-/// The rotation vector of each lane.
+/// Rotation vector of each lane.
 template <typename S>
 math::Three<S> log_of(const math::ThreeByThree<S>& R) {
   math::Three<S> theta{};
@@ -34,14 +35,14 @@ math::Three<S> log_of(const math::ThreeByThree<S>& R) {
   return theta;
 }
 
-/// `a bᵀ`.
+/// The outer product `a bᵀ`.
 template <typename S>
 math::ThreeByThree<S> times_transposed(const math::ThreeByThree<S>& a, const math::ThreeByThree<S>& b) {
   return {b.x.x * a.x + b.y.x * a.y + b.z.x * a.z, b.x.y * a.x + b.y.y * a.y + b.z.y * a.z,
           b.x.z * a.x + b.y.z * a.y + b.z.z * a.z};
 }
 
-/// The tip's Jacobian by its columns, velocities over the rod's length.
+/// The tip's Jacobian by columns, with linear velocities divided by the rod's length.
 template <typename S>
 struct Columns {
   S by[n][n];
@@ -56,27 +57,27 @@ struct Columns {
   }
 };
 
-/// The Jacobian of one rod, to solve with. If the tip hardly moves in some direction, 1/σ of a singular value below σ₀
-/// becomes σ/σ₀², which goes to zero.
+/// Regularised inverse of the Jacobian of one rod: for singular values σ < σ₀, 1/σ is replaced by σ/σ₀², which goes to
+/// zero.
 class Slope {
  public:
   template <typename S>
   Slope(const Columns<S>& columns, int lane, double length) {
-    // Of curvatures times the length; the stretch, the last one, has no unit.
+    // Coordinates scaled to curvatures times length; the last one, the stretch, is dimensionless.
     units_ << length, length, length, length, length, 1.0;
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) J_(i, j) = math::lane(columns.by[j][i], lane) / units_[j];
     }
     svd_.compute(J_, Eigen::ComputeFullU | Eigen::ComputeFullV);
     inverse_ = svd_.singularValues().unaryExpr(
-        [](double s) { return s >= least_motion ? 1.0 / s : s / (least_motion * least_motion); });
+        [](double s) { return s >= min_motion ? 1.0 / s : s / (min_motion * min_motion); });
   }
   Vector6d times(const Vector6d& x) const { return J_ * units_.cwiseProduct(x); }
-  /// Strain rates for velocities: of those that the rod cannot do, as much as it can.
+  /// Strain rates for the given velocities, as far as the rod can follow them.
   Vector6d solve(const Vector6d& b) const {
     return (svd_.matrixV() * inverse_.cwiseProduct(svd_.matrixU().transpose() * b)).cwiseQuotient(units_);
   }
-  /// The transposed of solve(): forces for generalised ones.
+  /// Transpose of solve(): forces from generalised forces.
   Vector6d solve_transposed(const Vector6d& b) const {
     return svd_.matrixU() * inverse_.cwiseProduct(svd_.matrixV().transpose() * b.cwiseQuotient(units_));
   }
@@ -98,20 +99,20 @@ void set_lane(S* x, int lane, const Vector6d& to) {
   for (int i = 0; i < n; ++i) math::set_lane(x[i], lane, to[i]);
 }
 
-/// What the tip is away from a pose: over the rod's length, and in radians.
+/// Distance of the tip from a pose: relative to the rod's length, and in radians.
 template <typename S>
-struct Away {
+struct PoseError {
   S by[n];
   S squared;
 
-  Away(const TipOf<S>& tip, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, double length) {
+  PoseError(const TipOf<S>& tip, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, double length) {
     const math::Three<S> p = (1.0 / length) * (p_HE - tip.p_HE), theta = log_of(times_transposed(R_HE, tip.R_HE));
     squared = dot(p, p) + dot(theta, theta);
     const S all[n] = {p.x, p.y, p.z, theta.x, theta.y, theta.z};
     for (int i = 0; i < n; ++i) by[i] = all[i];
   }
   Vector6d vector() const { return Eigen::Map<const Vector6d>(by); }
-  /// How much of it is gone at once.
+  /// Fraction of it that is covered in one step.
   S part() const {
     S part = S{} + 1.0;
     for (int i = 0; i < math::lanes<S>; ++i) {
@@ -122,15 +123,15 @@ struct Away {
   }
 };
 
-/// A strain within the range of the rod, with its tip and the distance to the wanted pose.
+/// A strain within the range of the rod, with its tip and the distance from the requested pose.
 struct Candidate {
   Vector6d q;
   TipOf<double> tip;
-  Away<double> away;
+  PoseError<double> pose_error;
 
   Candidate(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
             const Vector6d& strain)
-      : q(strain), tip(tip_of(shape, strain)), away(tip, R_HE, p_HE, shape.length()) {}
+      : q(strain), tip(tip_of(shape, strain)), pose_error(tip, R_HE, p_HE, shape.length()) {}
   static TipOf<double> tip_of(const ShapeModel& shape, const Vector6d& q) {
     const double zero[n] = {};
     TipOf<double> tip{};
@@ -139,10 +140,10 @@ struct Candidate {
   }
 };
 
-/// The longest part of the change by which a rod stays in its range, with the stretch cut short at its end if it is
-/// that which leads out. Halves `change` until there is one.
+/// Shortens `change` such that the rod stays in its range. If the stretch leaves the range, only the stretch is limited
+/// to its end; otherwise the change is halved until it fits.
 bool stay_in_range(const ShapeModel& shape, const Vector6d& q, Vector6d& change) {
-  for (int halving = 0; halving < most_fit_halvings; ++halving, change *= 0.5) {
+  for (int halving = 0; halving < max_fit_halvings; ++halving, change *= 0.5) {
     if (shape.admissible(q + change)) return true;
     const double whole = change[n - 1];
     double most = 1.0;
@@ -161,39 +162,40 @@ bool stay_in_range(const ShapeModel& shape, const Vector6d& q, Vector6d& change)
   return false;
 }
 
-/// Moves `q` to the pose, or as close to it as range and Jacobian of the rod allow: on one solution, by steps so short
-/// that the Jacobian predicts the change. Returns the remaining squared distance.
+/// Moves `q` to the pose, or as close to it as the rod's range and Jacobian allow. Stays on one solution branch by
+/// steps that are short enough for the Jacobian to predict the change. Returns the remaining squared distance.
 double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
                 Vector6d& q) {
   Candidate at(shape, R_HE, p_HE, q);
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const bool last = !(at.away.squared > last_change * last_change);
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    const bool last = !(at.pose_error.squared > last_change * last_change);
     const Slope slope(Columns<double>(at.tip, shape.length()), 0, shape.length());
-    Vector6d change = slope.solve(at.away.part() * at.away.vector());
+    Vector6d change = slope.solve(at.pose_error.part() * at.pose_error.vector());
     bool went = false, on = true;
-    for (int halving = 0; halving < most_fit_halvings && !went; ++halving, change *= 0.5) {
+    for (int halving = 0; halving < max_fit_halvings && !went; ++halving, change *= 0.5) {
       if (!stay_in_range(shape, at.q, change)) break;
       const Candidate next(shape, R_HE, p_HE, at.q + change);
       const Vector6d moves = slope.times(change);
-      const double error = (next.away.vector() - at.away.vector() + moves).norm();
-      went = last || (error <= most_nonlinearity * moves.norm() && next.away.squared < at.away.squared);
-      on = moves.squaredNorm() > least_progress * least_progress * at.away.squared;
+      const double error = (next.pose_error.vector() - at.pose_error.vector() + moves).norm();
+      went = last || (error <= max_nonlinearity * moves.norm() && next.pose_error.squared < at.pose_error.squared);
+      on = moves.squaredNorm() > min_progress * min_progress * at.pose_error.squared;
       if (went) at = next;
     }
     if (!went || !on || last) break;
   }
   q = at.q;
-  return at.away.squared;
+  return at.pose_error.squared;
 }
 
-/// Fits on the solution branch of `start` or, if that fails, of the straight rod, whichever comes closer to the pose.
+/// Fits on the solution branch of `start` or, if that fails, on that of the straight rod; returns the one closer to the
+/// pose.
 Vector6d fit(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
              const Vector6d& start) {
   Vector6d from_start = start, from_straight = Vector6d::Zero();
   if (!shape.admissible(from_start)) from_start.setZero();
-  const double away = approach(shape, R_HE, p_HE, from_start);
-  if (away <= last_change * last_change) return from_start;
-  return approach(shape, R_HE, p_HE, from_straight) < away ? from_straight : from_start;
+  const double pose_error = approach(shape, R_HE, p_HE, from_start);
+  if (pose_error <= last_change * last_change) return from_start;
+  return approach(shape, R_HE, p_HE, from_straight) < pose_error ? from_straight : from_start;
 }
 
 }  // namespace
@@ -210,8 +212,7 @@ TipFit<S>::TipFit(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, co
   const S velocity[n] = {per_length * v_HE.x, per_length * v_HE.y, per_length * v_HE.z, w_HE.x, w_HE.y, w_HE.z};
   exact_.solve(velocity, q_dot);
   for (int l = 0; l < math::lanes<S>; ++l) {
-    near_singular_[l] =
-        !shape.strain_is_pose() && !(math::lane(inverse_squared, l) * least_motion * least_motion <= 1.0);
+    near_singular_[l] = !shape.strain_is_pose() && !(math::lane(inverse_squared, l) * min_motion * min_motion <= 1.0);
     if (near_singular_[l]) set_lane(q_dot, l, Slope(columns, l, L).solve(lane_of(velocity, l)));
   }
 }
@@ -238,30 +239,30 @@ void TipFit<S>::find_strain(const math::ThreeByThree<S>& R_HE, const math::Three
 template <typename S>
 bool TipFit<S>::follow_slope(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE) {
   const S zero[n] = {};
-  Away<S> away(tip, R_HE, p_HE, shape_.length());
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const S part = away.part();
+  PoseError<S> pose_error(tip, R_HE, p_HE, shape_.length());
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    const S part = pose_error.part();
     S missing[n], change[n];
-    for (int i = 0; i < n; ++i) missing[i] = part * away.by[i];
+    for (int i = 0; i < n; ++i) missing[i] = part * pose_error.by[i];
     math::SquareSystem<n, S>(Columns<S>(tip, shape_.length()).by).solve(missing, change);
     for (int i = 0; i < n; ++i) q[i] += change[i];
     shape_.tip(q, zero, tip);
     for (int l = 0; l < math::lanes<S>; ++l) {
       if (!shape_.admissible(lane_of(q, l))) return false;
     }
-    if (!(math::largest(away.squared) > last_change * last_change)) return true;
-    const Away<S> next(tip, R_HE, p_HE, shape_.length());
+    if (!(math::largest(pose_error.squared) > last_change * last_change)) return true;
+    const PoseError<S> next(tip, R_HE, p_HE, shape_.length());
     S error = S{};
     for (int i = 0; i < n; ++i) {
-      const S e = next.by[i] - (1.0 - part) * away.by[i];
+      const S e = next.by[i] - (1.0 - part) * pose_error.by[i];
       error += e * e;
     }
     for (int l = 0; l < math::lanes<S>; ++l) {
-      const double moves = math::lane(part, l) * math::lane(part, l) * math::lane(away.squared, l);
-      const bool there = math::lane(away.squared, l) <= last_change * last_change;
-      if (!there && !(math::lane(error, l) <= most_nonlinearity * most_nonlinearity * moves)) return false;
+      const double moves = math::lane(part, l) * math::lane(part, l) * math::lane(pose_error.squared, l);
+      const bool there = math::lane(pose_error.squared, l) <= last_change * last_change;
+      if (!there && !(math::lane(error, l) <= max_nonlinearity * max_nonlinearity * moves)) return false;
     }
-    away = next;
+    pose_error = next;
   }
   return false;
 }

@@ -60,7 +60,7 @@ SetForkDofs::Request DofControls::dofs() const {
 }
 
 SetForkStiffness::Request DofControls::stiffness(int i) const {
-  SetForkStiffness::Request request;  // 0 keeps what is there
+  SetForkStiffness::Request request;  // 0 keeps the present value
   const std::array<double*, 3> fields{&request.stretch, &request.bend, &request.torsion};
   *fields[static_cast<std::size_t>(i)] = dofs_[static_cast<std::size_t>(i)].stiffness->value();
   return request;
@@ -72,7 +72,7 @@ SetForkDamping::Request DofControls::damping() const {
   request.bend = dofs_[1].damping->value();
   request.torsion = dofs_[2].damping->value();
   const bool one_ratio = request.stretch == request.bend && request.bend == request.torsion;
-  request.law = one_ratio ? "" : "per_dof";  // the modal law knows one ratio alone
+  request.law = one_ratio ? "" : "per_dof";  // the modal law has a single ratio
   return request;
 }
 

@@ -27,7 +27,7 @@ class DofControls : public QWidget {
   void show_switches(const ForkState& fork);
 
   SetForkDofs::Request dofs() const;
-  /// That of the `i`-th degree of freedom; the others stay as they are.
+  /// Request to set the stiffness of the `i`-th degree of freedom and keep the others.
   SetForkStiffness::Request stiffness(int i) const;
   SetForkDamping::Request damping() const;
 

@@ -19,7 +19,7 @@ DrawnFork::DrawnFork(Ogre::SceneManager* manager, Ogre::SceneNode* parent)
       object_(manager->createManualObject()),
       spring_material_(make_material()),
       rigid_material_(make_material()),
-      model_(fork_mesh::look_of(tool_)) {
+      model_(fork_mesh::appearance_of(tool_)) {
   object_->setDynamic(true);
   parent->attachObject(object_);
   set_color(Ogre::ColourValue(0.55F, 0.58F, 0.63F), rigid_material_);
@@ -46,7 +46,7 @@ void DrawnFork::deform(const ForkState& fork) {
   const auto& r = fork.proxy_handle.orientation;
   const RigidTransform X_WH = make_transform(Quaterniond(r.w, r.x, r.y, r.z), Vector3d(p.x, p.y, p.z));
   if (fork.tool != tool_) {
-    model_ = fork_mesh::ForkModel(fork_mesh::look_of(fork.tool));
+    model_ = fork_mesh::ForkModel(fork_mesh::appearance_of(fork.tool));
     tool_ = fork.tool;
     object_->clear();
   }

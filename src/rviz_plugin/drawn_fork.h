@@ -15,16 +15,16 @@ class SceneNode;
 
 namespace spring_workbench::rviz_plugin {
 
-/// A fork in Ogre, drawn from `ForkState` alone: the rod's curve from shape, length and strain, the mesh along it.
+/// A fork in Ogre, drawn from a `ForkState`: the rod's curve from shape, length and strain, and the mesh along it.
 class DrawnFork {
  public:
-  /// Below `parent`, which outlives it.
+  /// Adds the fork below `parent`, which must outlive it.
   DrawnFork(Ogre::SceneManager* manager, Ogre::SceneNode* parent);
   ~DrawnFork();
   DrawnFork(const DrawnFork&) = delete;
   DrawnFork& operator=(const DrawnFork&) = delete;
 
-  /// Throws InputError for what cannot be drawn.
+  /// Draws the fork. Throws InputError if it cannot be drawn.
   void draw(const ForkState& fork);
   void hide();
   bool visible() const;
@@ -38,7 +38,7 @@ class DrawnFork {
   Ogre::ManualObject* object_;
   Ogre::MaterialPtr spring_material_, rigid_material_;
   std::string tool_ = "spring_fork";
-  fork_mesh::ForkModel model_;  ///< of that tool
+  fork_mesh::ForkModel model_;  ///< model of the tool drawn last
   fork_mesh::ForkMesh mesh_;
 };
 

@@ -34,7 +34,7 @@ void ErrorPlot::add(double now, double wall_time, double error) {
 
 void ErrorPlot::refresh(double now) {
   now_ = now;
-  while (!points_.empty() && points_.front().t < now - kept_for) points_.pop_front();
+  while (!points_.empty() && points_.front().t < now - plot_duration) points_.pop_front();
   update();
 }
 

@@ -5,16 +5,16 @@
 
 namespace spring_workbench::rviz_plugin {
 
-/// Local error estimate [m] against wall time [s] of the cycles of the last seconds, both logarithmic; newer is
-/// brighter.
+/// Plot of local error estimate [m] against wall time [s] for the cycles of the last seconds, on logarithmic axes;
+/// newer cycles are brighter.
 class ErrorPlot : public QWidget {
   Q_OBJECT
  public:
   explicit ErrorPlot(QWidget* parent = nullptr);
 
-  /// `now` [s] on a clock that does not go back. What is not positive and finite has no place on the plot.
+  /// Adds a cycle. `now`: time of a monotonic clock [s]. Values that are not positive and finite are not plotted.
   void add(double now, double wall_time, double error);
-  /// Forgets what is older than some seconds, and draws.
+  /// Removes cycles older than a few seconds and redraws.
   void refresh(double now);
   QSize sizeHint() const override { return {220, 120}; }
 

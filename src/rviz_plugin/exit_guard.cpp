@@ -16,10 +16,10 @@ namespace {
 
 std::atomic<bool> quits{false};
 
-/// Until the program ends, by itself or here.
+/// Waits until the program has exited by itself, or exits it after a timeout.
 [[noreturn]] void watch() {
   while (!quits && !ros::isShuttingDown()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  std::this_thread::sleep_for(std::chrono::duration<double>(exit_patience));
+  std::this_thread::sleep_for(std::chrono::duration<double>(exit_timeout));
   std::fputs("the ROS master does not answer: ending without it\n", stderr);
   std::_Exit(EXIT_SUCCESS);
 }

@@ -2,9 +2,9 @@
 
 namespace spring_workbench::rviz_plugin {
 
-/// From now on this program ends within a few seconds of its windows, or of SIGINT: roscpp takes leave of the ROS
-/// master without a time limit, so a master that hangs would keep it for ever. All that rviz saves is saved by then. Of
-/// the GUI's thread; a second call does nothing.
+/// From now on this program exits within a few seconds after its windows are closed, or after SIGINT. Without this, a
+/// hanging ROS master would block the exit forever, because roscpp unregisters without a timeout. rviz has saved
+/// everything by then. Call from the GUI thread; a second call does nothing.
 void guard_exit();
 
 }  // namespace spring_workbench::rviz_plugin

@@ -51,7 +51,7 @@ void ForkDisplay::listen(const std::string& topic) {
       nullptr, ros::TransportHints().tcpNoDelay());
 }
 
-/// The topic's name is the first of those that begin with it.
+/// Subscribes to the topic and to all topics whose names extend it by _2, _3 and so on.
 void ForkDisplay::listen_to_all() {
   const auto answer = shared_master_watch().answer();
   if (forks_.empty() || answer == std::exchange(last_answer_, answer)) return;

@@ -19,8 +19,8 @@ class RosTopicProperty;
 
 namespace spring_workbench::rviz_plugin {
 
-/// Draws the forks of all styluses, at most once a frame of rviz: that of its topic, and those of the topics that the
-/// master knows with _2, _3 and so on behind it. A fork is gone when no message of it has come for two seconds.
+/// Draws the forks of all styluses, at most once per frame of rviz: those on its topic and on the topics with the
+/// suffixes _2, _3 and so on that the master knows. A fork is hidden if no message for it has arrived for two seconds.
 class ForkDisplay : public rviz::Display {
   Q_OBJECT
  public:
@@ -40,8 +40,8 @@ class ForkDisplay : public rviz::Display {
   struct Fork {
     Fork(Ogre::SceneManager* manager, Ogre::SceneNode* parent) : drawn(manager, parent) {}
     DrawnFork drawn;
-    ForkStateConstPtr newest;  ///< not yet drawn
-    double silence = 0.0;      ///< since the newest message [s]
+    ForkStateConstPtr newest;  ///< not drawn yet
+    double silence = 0.0;      ///< time since the newest message [s]
     ros::Subscriber subscriber;
   };
   Q_SLOT void subscribe();

@@ -42,7 +42,7 @@ void HeadViewController::update(float, float) {
   try {
     newest = context_->getTF2BufferPtr()->lookupTransform(fixed, frame, ros::Time());
   } catch (const tf2::TransformException&) {
-    return setStatus("no frame " + frame_->getFrame() + ": the view stays");
+    return setStatus("no frame " + frame_->getFrame() + ": the view does not move");
   }
   setStatus("following " + frame_->getFrame());
   if (std::exchange(followed_, fixed + " " + frame) != followed_) motion_ = motion::HeadMotion();
@@ -53,7 +53,7 @@ void HeadViewController::update(float, float) {
   // Ogre's cameras look along -z, y up.
   const Ogre::Quaternion camera_in_head(Ogre::Vector3(0, -1, 0), Ogre::Vector3(0, 0, 1), Ogre::Vector3(-1, 0, 0));
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // rviz hangs its cameras into the scene's root
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // rviz attaches its cameras to the scene's root
   camera_->setPosition(p.x(), p.y(), p.z());
   camera_->setOrientation(Ogre::Quaternion(q.w(), q.x(), q.y(), q.z()) * camera_in_head);
 #pragma GCC diagnostic pop

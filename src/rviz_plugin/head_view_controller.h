@@ -15,8 +15,8 @@ class TfFrameProperty;
 
 namespace spring_workbench::rviz_plugin {
 
-/// The view from a tracked head: the camera is in the frame `head`, looking along its x axis, z up; predicted, if a
-/// latency is given. Stays where it is while the frame is not there.
+/// The view from a tracked head: the camera is at the frame `head`, looking along its x axis with z up. The head's
+/// motion is predicted if a latency is set. The view stays in place while the frame is missing.
 class HeadViewController : public rviz::ViewController {
   Q_OBJECT
  public:
@@ -31,7 +31,7 @@ class HeadViewController : public rviz::ViewController {
  private:
   rviz::TfFrameProperty* frame_;
   rviz::FloatProperty* latency_;
-  std::string followed_;  ///< frame and fixed frame
+  std::string followed_;  ///< name of the frame followed, and of the fixed frame
   motion::HeadMotion motion_;
 };
 

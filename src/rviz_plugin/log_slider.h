@@ -8,21 +8,21 @@ class QSlider;
 
 namespace spring_workbench::rviz_plugin {
 
-/// A slider with a logarithmic scale and its value beside it. Follows `show` but while a hand is on it, and for a
-/// moment after.
+/// A slider with a logarithmic scale and its value next to it. It follows `show_value`, except while the user moves it
+/// and for a moment afterwards.
 class LogSlider : public QWidget {
   Q_OBJECT
  public:
-  /// Values `low` … `high`, 0 < low < high.
+  /// Range `low` … `high`, 0 < low < high.
   LogSlider(double low, double high, const QString& unit, QWidget* parent = nullptr);
 
-  /// The value that is true now, which need not be in the range.
+  /// Shows the present value, which may be outside the range.
   void show_value(double value);
-  /// What the slider stands at, or what was shown last where nobody moved it.
+  /// The value set by the user or, if the slider was not moved, the last value shown.
   double value() const { return value_; }
 
  Q_SIGNALS:
-  /// A hand moved it.
+  /// Signals that the user moved it.
   void moved(double value);
 
  private:
@@ -32,12 +32,12 @@ class LogSlider : public QWidget {
   const double low_, high_;
   const QString unit_;
   double value_;
-  double free_at_ = 0.0;  ///< when it follows again [s]
+  double free_at_ = 0.0;  ///< time from which it follows again [s]
   QSlider* slider_;
   QLabel* label_;
 };
 
-/// Seconds on a clock that does not go back.
+/// Time of a monotonic clock [s].
 double panel_time();
 
 }  // namespace spring_workbench::rviz_plugin

@@ -13,7 +13,7 @@ namespace {
   throw validation::InputError(of + ": " + rule);
 }
 
-/// Also as numbers of single precision, which is what is drawn.
+/// Finite in single precision, too, which is used for drawing.
 bool is_drawable(double x) { return std::isfinite(static_cast<float>(x)); }
 
 void check_mesh(const MeshDescription& mesh) {

@@ -8,11 +8,11 @@
 
 namespace spring_workbench::rviz_plugin {
 
-/// Whether it is finite and its quaternion of length 1, to a tenth.
+/// Whether the pose is finite and its quaternion has length 1 ± 0.1.
 bool is_pose(const geometry_msgs::Pose& pose);
-/// Throws InputError, which names `of`, unless it is a pose.
+/// Throws InputError naming `of` unless the pose is valid.
 void check(const geometry_msgs::Pose& pose, const std::string& of);
-/// Throws InputError for what cannot be drawn: values that are not finite, indices out of range, a name twice.
+/// Throws InputError if the scene cannot be drawn: values that are not finite, indices out of range, duplicate names.
 void check(const SceneDescription& scene);
 
 }  // namespace spring_workbench::rviz_plugin

@@ -71,7 +71,7 @@ void ObjectsDisplay::on_scene(const SceneDescriptionConstPtr& message) { scene_ 
 
 void ObjectsDisplay::on_objects(const ObjectStatesConstPtr& message) { newest_ = message; }
 
-/// The callbacks were called just before, in this thread: what is newest now is what the frame shows.
+/// The callbacks have just run in this thread, so the frame shows the newest message.
 void ObjectsDisplay::update(float wall_dt, float) {
   silence_ += static_cast<double>(wall_dt);
   if (scene_) describe();

@@ -18,9 +18,9 @@ class RosTopicProperty;
 
 namespace spring_workbench::rviz_plugin {
 
-/// Draws the bodies of the scene: builds them from the latched `SceneDescription`, once for each change of the scene,
-/// and moves them by the newest `ObjectStates` at the begin of each frame. Gone when no message has come for two
-/// seconds.
+/// Draws the bodies of the scene. Builds them from the latched `SceneDescription`, once for each change of the scene,
+/// and moves them according to the newest `ObjectStates` at the start of each frame. Hidden if no message has arrived
+/// for two seconds.
 class ObjectsDisplay : public rviz::Display {
   Q_OBJECT
  public:

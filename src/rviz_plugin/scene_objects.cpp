@@ -29,7 +29,8 @@ void set_pose(const geometry_msgs::Pose& pose, Ogre::SceneNode* node) {
   node->setOrientation(rotation);
 }
 
-/// rviz' primitives are of size 1; its cylinder stands along y. Triangles are scaled, files are not.
+/// Sets the scale of a node. The primitives of rviz have size 1, with the cylinder along y. Triangles of a description
+/// are already scaled, mesh files are not.
 void set_size(const ShapeDescription& shape, bool of_file, Ogre::SceneNode* node) {
   const auto& size = shape.size;
   if (shape.type == ShapeDescription::CYLINDER) {
@@ -72,7 +73,7 @@ Ogre::Entity* SceneObjects::make_entity(const ShapeDescription& shape) {
 void SceneObjects::add_part(const SceneDescription& scene, const ShapeDescription& shape, Body& body) {
   const bool is_mesh = shape.type == ShapeDescription::MESH;
   if (is_mesh && !meshes_[shape.mesh]) return;  // without triangles
-  const Ogre::MeshPtr file =                    // null, too, if rviz cannot read it
+  const Ogre::MeshPtr file =                    // also null if rviz cannot read it
       is_mesh && shape.file_colors != 0 ? rviz::loadMeshFromResource(scene.meshes[shape.mesh].uri) : Ogre::MeshPtr();
   Part part{body.node->createChildSceneNode(), file ? manager_->createEntity(file) : make_entity(shape), {}};
   set_pose(shape.pose, part.node);

@@ -21,44 +21,44 @@ class SceneNode;
 
 namespace spring_workbench::rviz_plugin {
 
-/// The bodies of a scene in Ogre: built once from their description, then only moved and coloured. Frees all that it
-/// made.
+/// The bodies of a scene in Ogre: built once from their description, then only moved and coloured. Frees all its
+/// resources.
 class SceneObjects {
  public:
-  /// Below `parent`, which outlives it.
+  /// Adds the bodies below `parent`, which must outlive it.
   SceneObjects(Ogre::SceneManager* manager, Ogre::SceneNode* parent);
   ~SceneObjects();
   SceneObjects(const SceneObjects&) = delete;
   SceneObjects& operator=(const SceneObjects&) = delete;
 
-  /// Builds these bodies in place of the present ones. Fixed bodies are shown, movable ones from their first pose on.
-  /// Throws InputError, and changes nothing, for what cannot be drawn.
+  /// Replaces the present bodies. Fixed bodies are shown at once, movable ones from their first pose on. Throws
+  /// InputError, and changes nothing, if the scene cannot be drawn.
   void describe(const SceneDescription& scene);
-  /// Moves the movable bodies; one that the message does not name is hidden, a name that is not described is ignored.
-  /// Throws InputError, and changes nothing, where a pose is none.
+  /// Moves the movable bodies. A body that the message does not contain is hidden; an unknown name is ignored. Throws
+  /// InputError, and changes nothing, if a pose is invalid.
   void place(const ObjectStates& objects);
-  /// Removes all.
+  /// Removes all bodies.
   void clear();
 
   std::size_t bodies() const { return bodies_.size(); }
-  std::size_t built() const { return built_; }  ///< shapes, since the start
-  /// In the parent's frame, the body's at its centre of mass; nullptr: no such body.
+  std::size_t built() const { return built_; }  ///< number of shapes built since the start
+  /// Node of a body, placed at its centre of mass in the parent's frame; nullptr if there is no such body.
   const Ogre::SceneNode* node(const std::string& name) const;
 
  private:
   struct Look {
     Ogre::MaterialPtr material;
-    Ogre::ColourValue color;  ///< if nothing is in it
+    Ogre::ColourValue color;  ///< colour while no tip is in the body
   };
   struct Part {
     Ogre::SceneNode* node;
     Ogre::Entity* entity;
-    std::vector<Look> looks;  ///< one, or of a mesh file one per sub-mesh
+    std::vector<Look> looks;  ///< one, or for a mesh file one per sub-mesh
   };
   struct Body {
     Ogre::SceneNode* node = nullptr;
     bool movable = false;
-    bool named = true;  ///< by the newest message
+    bool named = true;  ///< whether the newest message contains it
     bool highlighted = false, pierced = false;
     std::vector<Part> parts;
   };

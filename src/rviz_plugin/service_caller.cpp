@@ -9,7 +9,7 @@ ServiceCaller::~ServiceCaller() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ends_ = true;
-    client_.shutdown();  // a call that waits for its answer ends
+    client_.shutdown();  // aborts a call that waits for its response
   }
   changed_.notify_all();
   thread_.join();

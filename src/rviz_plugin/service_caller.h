@@ -14,11 +14,11 @@
 
 namespace spring_workbench::rviz_plugin {
 
-/// Calls services in a thread of its own, so that rviz does not wait for a node that is gone or stopped. Of the waiting
-/// calls with one key, only the newest is made.
+/// Calls services from a separate thread, so that rviz does not block on a node that has exited or hangs. Of the
+/// pending calls with the same key, only the newest is made.
 class ServiceCaller {
  public:
-  /// `report` is called in that thread with one line about each call that was made.
+  /// `report` is called in that thread with one line about each call.
   explicit ServiceCaller(std::function<void(const std::string&)> report);
   ~ServiceCaller();
 
@@ -48,7 +48,7 @@ class ServiceCaller {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::list<std::pair<std::string, Job>> waiting_;
-  ros::ServiceClient client_;  ///< of the call that is being made
+  ros::ServiceClient client_;  ///< client of the call in progress
   bool ends_ = false;
   std::thread thread_;
 };

@@ -13,19 +13,19 @@ namespace spring_workbench::rviz_plugin {
 
 class ErrorPlot;
 
-/// What the steps cost and how well they did, from `~steps`: the newest in words, the last seconds as a plot.
+/// Cost and accuracy of the steps, from `~steps`: the newest as text, the last seconds as a plot.
 class StepFigures : public QWidget {
  public:
   explicit StepFigures(QWidget* parent);
 
-  /// `now` [s] on a clock that does not go back.
+  /// `now`: time of a monotonic clock [s].
   void add(double now, const StepReportConstPtr& steps);
   void clear();
   void refresh(double now);
 
  private:
   StepReportConstPtr steps_;
-  std::size_t missed_ = 0;  ///< deadlines
+  std::size_t missed_ = 0;  ///< number of deadlines missed
   QLabel *figures_, *skipped_;
   ErrorPlot* plot_;
 };

@@ -33,7 +33,7 @@
 namespace spring_workbench::rviz_plugin {
 namespace {
 
-const std::string node = "manipulation/";  // in the namespace of rviz, as all names here
+const std::string node = "manipulation/";  // relative to the namespace of rviz, like all names here
 
 QComboBox* choice_of(const std::vector<std::string>& names, QWidget* parent) {
   auto* box = new QComboBox(parent);
@@ -90,7 +90,8 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   integrator_ = choice_of(validation::names<dynamics::IntegratorKind>(), this);
   tool_ = choice_of(validation::names<tools::Tool>(), this);
   held_ = new QLabel(this);
-  held_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
+  held_->setSizePolicy(QSizePolicy::Ignored,
+                       QSizePolicy::Preferred);  // the width of the panel does not depend on the held object
   scene_ = new QLineEdit("package://spring_workbench/scenes/mini_world.urdf", this);
   auto* load = new QPushButton("Load", this);
   grid->addWidget(new QLabel("Integrator", this), 0, 0);

@@ -24,8 +24,8 @@ namespace spring_workbench::rviz_plugin {
 class DofControls;
 class StepFigures;
 
-/// Tunes the fork of the node `manipulation` while it is used. It shows only what `~fork` and `~steps` report; each
-/// change by the user is a call of a service of the node. Grey while the node is silent.
+/// Tunes the fork of the node `manipulation` while it is in use. Shows only what `~fork` and `~steps` report; each
+/// change by the user is a service call. Greyed out while the node is silent.
 class WorkbenchPanel : public rviz::Panel {
   Q_OBJECT
  public:
@@ -48,13 +48,13 @@ class WorkbenchPanel : public rviz::Panel {
   void refresh();
   void show_fork();
 
-  template <typename Service>  // switches and choices wait for what comes of it
+  template <typename Service>  // switches and choices wait for its effect
   void ask(const std::string& service, const typename Service::Request& request);
 
   ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;
   ForkStateConstPtr fork_;
   double fork_received_ = -1e9;  ///< [s]
-  double free_at_ = 0.0;         ///< when switches and choices follow the node again [s]
+  double free_at_ = 0.0;         ///< time from which switches and choices follow the node again [s]
 
   QWidget* controls_;
   DofControls* dofs_ = nullptr;

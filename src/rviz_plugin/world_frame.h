@@ -6,8 +6,8 @@
 
 namespace spring_workbench::rviz_plugin {
 
-/// Puts the display's node where the frame of a message is in the fixed frame of rviz. Returns false, and says so in
-/// the display's status, if there is no transform.
+/// Places the display's node at the frame of a message, in the fixed frame of rviz. If there is no transform, returns
+/// false and sets the display's status.
 bool place_node(const std::string& frame, const QString& fixed_frame, rviz::DisplayContext* context,
                 rviz::Display& display);
 

@@ -12,7 +12,7 @@
 namespace spring_workbench::scene {
 namespace {
 
-/// Inertia of a point of mass `mass` at `p`, about the origin.
+/// Inertia about the origin of a point mass `mass` at `p`.
 Matrix3d point_inertia(double mass, const Vector3d& p) {
   return mass * (p.squaredNorm() * Matrix3d::Identity() - p * p.transpose());
 }
@@ -25,7 +25,7 @@ RigidMass shape_mass(const geometry::Shape& shape, double density, const std::st
     const Eigen::AlignedBox3d box = geometry::bounding_box(shape.geometry);
     volume = geometry::volume_properties(geometry::Box{box.sizes()});
     volume.centre = box.center();
-    warnings.push_back(where + ": mesh " + (*mesh)->uri + " is not closed: its bounding box's volume is taken");
+    warnings.push_back(where + ": mesh " + (*mesh)->uri + " is not closed: the volume of its bounding box is used");
   }
   return transformed(shape.X_OS, {density * volume.volume, volume.centre, density * volume.inertia_per_density});
 }
@@ -68,7 +68,7 @@ RigidMass solid_mass(const std::vector<geometry::Shape>& shapes, double density,
 std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Shape>& shapes) {
   const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(mass.inertia, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(moments[0] > 1e-9 * moments[2])) return "is not positive definite";
-  if (moments[0] + moments[1] < (1.0 - inertia_rounding) * moments[2]) return "breaks the triangle inequality";
+  if (moments[0] + moments[1] < (1.0 - inertia_rounding) * moments[2]) return "violates the triangle inequality";
   const double largest_gyration = std::sqrt(moments[2] / mass.mass);
   const double size = farthest_point(shapes, mass.centre);
   if (!shapes.empty() && largest_gyration > (1.0 + inertia_rounding) * size) {

@@ -7,30 +7,30 @@
 
 namespace spring_workbench::scene {
 
-/// Mass [kg], centre of mass [m] and inertia about it [kg·m²] of something rigid, in the axes of one frame.
+/// Mass [kg], centre of mass [m] and inertia about it [kg·m²] of a rigid body, in one frame.
 struct RigidMass {
   double mass = 0.0;
   Vector3d centre = Vector3d::Zero();
   Matrix3d inertia = Matrix3d::Zero();
 };
 
-/// The same mass seen from the frame A that `X_AB` places its frame B in.
+/// Transforms a mass from its frame B to the frame A; `X_AB`: pose of B in A.
 RigidMass transformed(const RigidTransform& X_AB, const RigidMass& mass_B);
 
-/// Both as one rigid thing, by the parallel axis theorem.
+/// Both masses as one rigid body (parallel axis theorem).
 RigidMass sum(const RigidMass& a, const RigidMass& b);
 
-/// Mass of shapes of uniform density [kg/m³]; where shapes overlap they count twice. A mesh that is not closed has no
-/// volume: its bounding box counts, with a warning. Zero without shapes.
+/// Mass of shapes of uniform density [kg/m³]; overlaps count twice. A mesh that is not closed is replaced by its
+/// bounding box, with a warning. Zero if there are no shapes.
 RigidMass solid_mass(const std::vector<geometry::Shape>& shapes, double density, const std::string& where,
                      std::vector<std::string>& warnings);
 
-/// Why an inertia cannot be that of a thing with these shapes, or an empty string: it must be positive definite, its
-/// principal moments must obey the triangle inequality, and the radius of gyration must not reach beyond the shapes.
+/// Why an inertia is impossible for a body with these shapes, or an empty string: it must be positive definite, its
+/// principal moments must satisfy the triangle inequality, and no radius of gyration may exceed the shapes.
 std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Shape>& shapes);
 
-/// The mass of a movable body: as the URDF has it where that is possible, otherwise mended from the shapes, with a
-/// warning. Throws InputError naming `where` when it cannot be mended.
+/// The mass of a movable body: as in the URDF if that is possible, otherwise repaired from the shapes, with a warning.
+/// Throws InputError naming `where` if it cannot be repaired.
 RigidMass repaired_mass(const RigidMass& given, const std::vector<geometry::Shape>& shapes, double density,
                         const std::string& where, std::vector<std::string>& warnings);
 

@@ -28,7 +28,7 @@ std::string package_file(const std::string& name, const std::string& where, cons
   return folder + rest.substr(package.size());
 }
 
-/// Links followed.
+/// Whether the path, with symbolic links resolved, is in one of the folders.
 bool is_in_a_root(const fs::path& path, const std::vector<std::string>& roots) {
   std::error_code error;
   const fs::path file = fs::weakly_canonical(path, error);
@@ -52,7 +52,7 @@ struct LessByCoordinates {
   }
 };
 
-/// Equal vertices become one; vertices of no triangle go.
+/// Merges equal vertices and removes unused ones.
 void merge_vertices(geometry::TriangleMesh& mesh) {
   std::map<Vector3d, int, LessByCoordinates> index_of;
   std::vector<Vector3d> vertices;
@@ -84,14 +84,14 @@ bool is_flat(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& t) {
   return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).norm() == 0.0;
 }
 
-/// A name as resolve_file() takes it, as a path.
+/// Converts a name, as accepted by resolve_file(), to a path.
 fs::path path_of(const std::string& name, const std::string& folder, const std::string& where, const std::string& key) {
   if (starts_with(name, "package://")) return package_file(name, where, key);
   if (starts_with(name, "file://")) return name.substr(std::string("file://").size());
   return fs::path(folder) / name;
 }
 
-/// Throws InputError unless it lies where files may.
+/// Throws InputError unless the path is in an allowed folder.
 void check_folder(const fs::path& path, const std::vector<std::string>& roots, const std::string& name,
                   const std::string& where, const std::string& key) {
   if (roots.empty() || is_in_a_root(path, roots) || is_in_a_package(path)) return;
@@ -105,12 +105,13 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
   const std::string path = path_of(name, folder, where, key).string();
   std::error_code error;
   if (name.empty()) validation::refuse(where, key, name, "an existing file");
-  check_folder(path, roots, name, where, key);  // first: the message does not say which files exist elsewhere
+  check_folder(path, roots, name, where,
+               key);  // checked first, so that the message does not reveal which files exist elsewhere
   if (!fs::is_regular_file(path, error))
     validation::refuse(where, key, name, "an existing file (looked for " + path + ")");
   const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error || bytes > most_bytes) {
-    validation::refuse(where, key, name, "a file of at most " + std::to_string(most_bytes >> 20) + " MiB");
+  if (error || bytes > max_bytes) {
+    validation::refuse(where, key, name, "a file of at most " + std::to_string(max_bytes >> 20) + " MiB");
   }
   return fs::absolute(path).lexically_normal().string();
 }
@@ -141,7 +142,7 @@ geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string
 }
 
 bool is_closed(const geometry::TriangleMesh& mesh) {
-  std::multiset<std::pair<int, int>> open;  // directed edges that wait for their opposite
+  std::multiset<std::pair<int, int>> open;  // directed edges whose opposite has not been found yet
   for (const Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const std::pair<int, int> edge(t[k], t[(k + 1) % 3]);
@@ -156,7 +157,7 @@ bool is_closed(const geometry::TriangleMesh& mesh) {
   return open.empty();
 }
 
-MeshCache::MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)), time_left_(most_scene_time) {}
+MeshCache::MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)), time_left_(max_scene_time) {}
 
 geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
                                   const std::string& where) {
@@ -171,9 +172,9 @@ geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale
   const std::string mesh_where = where + ": " + name;
   geometry::TriangleMesh loaded = read_triangles(path, mesh_where, time_left_);
   triangles_ += loaded.triangles.size();
-  if (triangles_ > most_scene_triangles) {
+  if (triangles_ > max_scene_triangles) {
     validation::refuse(mesh_where, "triangles of the scene", std::to_string(triangles_),
-                       "at most " + std::to_string(most_scene_triangles));
+                       "at most " + std::to_string(max_scene_triangles));
   }
   for (Vector3d& v : loaded.vertices) v = v.cwiseProduct(scale);
   loaded = clean_mesh(std::move(loaded), mesh_where);

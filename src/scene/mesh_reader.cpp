@@ -18,7 +18,7 @@ namespace {
 
 constexpr char good = '+', bad = '-';
 
-/// Opens one file and nothing that it refers to, such as the materials of an OBJ file.
+/// Opens a single file and nothing that it refers to, such as the materials of an OBJ file.
 class OneFile : public Assimp::DefaultIOSystem {
  public:
   explicit OneFile(std::string path) : path_(std::move(path)) {}
@@ -39,7 +39,7 @@ void append(const aiMesh& part, const std::string& where, geometry::TriangleMesh
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // points and lines
+    if (face.mNumIndices != 3) continue;  // a point or a line
     Eigen::Vector3i triangle;
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= part.mNumVertices) {
@@ -53,15 +53,15 @@ void append(const aiMesh& part, const std::string& where, geometry::TriangleMesh
 
 geometry::TriangleMesh read(const std::string& path, const std::string& where) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFile(path));  // which the importer then owns
+  importer.SetIOHandler(new OneFile(path));  // owned by the importer
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr)
     validation::refuse(where, "mesh", path, std::string("readable (") + importer.GetErrorString() + ")");
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
-  if (triangles > most_triangles) {
-    validation::refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(most_triangles));
+  if (triangles > max_triangles) {
+    validation::refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(max_triangles));
   }
   geometry::TriangleMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], where, mesh);
@@ -84,7 +84,7 @@ const char* unpack(const char* data, std::vector<T>& rows) {
   return data + sizeof count + count * sizeof(T);
 }
 
-/// What goes through the pipe: a mesh, or why there is none.
+/// The bytes sent through the pipe: a mesh, or the reason why there is none.
 std::string read_in_child(const std::string& path, const std::string& where) {
   try {
     const geometry::TriangleMesh mesh = read(path, where);
@@ -102,7 +102,7 @@ std::string read_in_child(const std::string& path, const std::string& where) {
 geometry::TriangleMesh read_triangles(const std::string& path, const std::string& where, double& time_left) {
   double used = 0.0;
   const std::optional<std::string> data = validation::run_in_child(
-      [&] { return read_in_child(path, where); }, {std::min(most_mesh_time, time_left), most_mesh_memory}, &used);
+      [&] { return read_in_child(path, where); }, {std::min(max_mesh_time, time_left), max_mesh_memory}, &used);
   time_left -= used;
   if (!data || time_left <= 0.0)
     validation::refuse(where, "mesh", path, "readable within 30 s and 2 GiB, all meshes of a scene within 60 s");

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Name in the folder's package.xml, or an empty string.
+/// Package name from the folder's package.xml, or an empty string.
 std::string package_name(const fs::path& folder) {
   TiXmlDocument document;
   if (!document.LoadFile((folder / "package.xml").string())) return "";
@@ -24,7 +24,7 @@ std::string package_name(const fs::path& folder) {
   return text != nullptr ? text : "";
 }
 
-/// Looks for the package in the folder and `depth` levels below; as rospack, not inside other packages.
+/// Searches for the package in the folder and `depth` levels below; like rospack, not inside other packages.
 std::string crawl(const fs::path& folder, const std::string& package, int depth) {
   std::error_code error;
   if (fs::exists(folder / "package.xml", error)) {

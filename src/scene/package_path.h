@@ -4,7 +4,8 @@
 
 namespace spring_workbench::scene {
 
-/// Whether a file that is there lies, links followed, in a package that find_package_in_ros_package_path() finds.
+/// Whether an existing file, with symbolic links resolved, is in a package that find_package_in_ros_package_path()
+/// finds.
 bool is_in_a_package(const std::filesystem::path& path);
 
 }  // namespace spring_workbench::scene

@@ -25,15 +25,15 @@ double lowest_point(const Body& body) {
   return lowest;
 }
 
-/// Lifts or lowers an object's bodies until the first one lies on the bench, when that one is movable.
+/// Lifts or lowers the bodies of an object such that the first one, if it is movable, stands on the bench.
 void lay_on_bench(double bench_height, std::vector<Body>& bodies) {
   if (bodies.empty() || !bodies.front().movable) return;
   const double lowest = lowest_point(bodies.front());
-  if (!std::isfinite(lowest)) return;  // no shape
+  if (!std::isfinite(lowest)) return;  // no shapes
   for (Body& body : bodies) body.X_WO.pretranslate(Vector3d(0.0, 0.0, bench_height - lowest));
 }
 
-/// The one body of an object's own URDF, at `X_WL` or on the bench. `given`: the URDF's name in messages.
+/// The single body of an object's own URDF, at `X_WL` or on the bench. `given`: name of the URDF in messages.
 Body build_object(const UrdfFile& urdf, const std::optional<RigidTransform>& X_WL, const Material& material,
                   double bench_height, MeshCache& meshes, std::vector<std::string>& warnings, const std::string& where,
                   const std::string& key, const std::string& given) {
@@ -46,7 +46,7 @@ Body build_object(const UrdfFile& urdf, const std::optional<RigidTransform>& X_W
   return std::move(bodies.front());
 }
 
-/// Puts a scene together from its URDF, the YAML beside it and the URDFs that this names.
+/// Assembles a scene from its URDF, the YAML file next to it and the URDFs that this file refers to.
 class SceneLoader {
  public:
   SceneLoader(const std::string& path, const std::vector<std::string>& roots)
@@ -105,7 +105,7 @@ class SceneLoader {
     scene_.bodies.push_back(std::move(body));
   }
 
-  /// What the YAML says of bodies must fit the bodies that there are.
+  /// Checks that the bodies named in the YAML file exist.
   void check_names() const {
     std::vector<std::string> names;
     for (const Body& body : scene_.bodies) names.push_back(body.name);

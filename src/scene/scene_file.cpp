@@ -11,12 +11,12 @@ std::string line_of(const YAML::Node& node, const std::string& path) {
   return path + ":" + std::to_string(node.Mark().line + 1);
 }
 
-/// A map of the file, whose keys need not be there.
+/// A map of the file with optional keys.
 struct Fields {
   const YAML::Node& map;
   std::string path, prefix;
 
-  /// Sets `value` by one of config's readers, where the key is there.
+  /// Sets `value` by one of the readers in config if the key exists.
   template <typename T, typename Read, typename... Rule>
   void operator()(const std::string& key, T& value, const Read& read, const Rule&... rule) const {
     if (map[key].IsDefined()) value = read(map[key], path, prefix + key, rule...);
@@ -104,7 +104,7 @@ void read_settings(const YAML::Node& map, const std::string& path, SceneFile& fi
   }
 }
 
-/// Calls `read` with name and node of each entry of the map under `key`, where there is one.
+/// Calls `read` with name and node of each entry of the map under `key`, if there is one.
 template <class Read>
 void for_each_entry(const YAML::Node& map, const std::string& path, const std::string& key, const Read& read) {
   if (!map[key].IsDefined()) return;

@@ -13,14 +13,14 @@ struct ObjectEntry {
   std::string where;  ///< "<file>:<line>"
   Material material;
   bool massless = false;
-  std::optional<std::string> urdf;     ///< another object's own URDF, as written
-  std::optional<RigidTransform> X_WL;  ///< where that stands; absent: it lies on the bench at x = y = 0
+  std::optional<std::string> urdf;     ///< the object's own URDF, as written in the file
+  std::optional<RigidTransform> X_WL;  ///< pose of its link frame; absent: it stands on the bench at x = y = 0
 };
 
-/// The YAML beside a URDF. Defaults are those of `Scene`, `Material` and `Target`.
+/// The YAML file next to a URDF. Defaults are those of `Scene`, `Material` and `Target`.
 struct SceneFile {
   Scene settings;         ///< everything but name, path, bodies and warnings
-  bool massless = false;  ///< all objects whose entry says nothing else
+  bool massless = false;  ///< default for all objects without an entry of their own
   std::map<std::string, ObjectEntry> objects;
   std::map<std::string, std::string> targets;  ///< name → "<file>:<line>"
 };
@@ -28,7 +28,7 @@ struct SceneFile {
 /// Key of `start:` for a hand, from 0: handle, handle_2, ...
 inline std::string handle_key(std::size_t hand) { return hand == 0 ? "handle" : "handle_" + std::to_string(hand + 1); }
 
-/// Reads it. Throws InputError with file:line, key, value and rule; unknown keys are refused.
+/// Reads a scene file. Throws InputError with file:line, key, value and rule; unknown keys are refused.
 SceneFile read_scene_file(const std::string& path);
 
 }  // namespace spring_workbench::scene

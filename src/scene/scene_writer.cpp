@@ -30,7 +30,8 @@ std::string text_of(const std::vector<double>& numbers) {
 std::string text_of(double number) { return text_of(std::vector<double>{number}); }
 std::string text_of(const Vector3d& v) { return text_of(std::vector<double>{v.x(), v.y(), v.z()}); }
 
-/// Roll, pitch and yaw: of pitch and roll what the yaw leaves, so that no attitude loses digits.
+/// Roll, pitch and yaw. Roll and pitch are computed from the rotation that remains after the yaw, which is accurate in
+/// every orientation.
 Vector3d roll_pitch_yaw(const Matrix3d& R) {
   const double yaw = std::atan2(R(1, 0), R(0, 0));
   const Matrix3d rest = Eigen::AngleAxisd(-yaw, Vector3d::UnitZ()) * R;
@@ -66,7 +67,8 @@ void add_geometry(TiXmlElement& parent, const geometry::Geometry& geometry, cons
   }
 }
 
-/// Of a movable body, at its centre of mass. One without mass gets some, which the YAML takes away again.
+/// Adds the inertial of a movable body, at its centre of mass. A massless body gets a mass, which the YAML file sets to
+/// zero again.
 void add_inertial(TiXmlElement& link, const Body& body) {
   const double mass = body.mass_properties.mass;
   const std::vector<geometry::Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
@@ -122,7 +124,7 @@ std::string urdf_of(const Scene& scene) {
     fill_link(link, body);
     if (is_root(body)) continue;
     TiXmlElement& joint = add(robot, "joint");
-    std::ostringstream name;  // bodies are read in the order of these
+    std::ostringstream name;  // bodies are read in the order of the joint names
     name << std::setw(6) << std::setfill('0') << number++ << " " << body.name;
     joint.SetAttribute("name", name.str());
     joint.SetAttribute("type", body.movable ? "floating" : "fixed");

@@ -19,7 +19,7 @@ RigidTransform to_transform(const urdf::Pose& pose, const std::string& where) {
   return make_transform(rotation, p);
 }
 
-/// A body to be: its first link and the links that hang on it by fixed joints, each with its pose in the first link's
+/// The links of a body: its first link and those attached to it by fixed joints, each with its pose in the first link's
 /// frame.
 struct LinkGroup {
   const urdf::Link* first = nullptr;
@@ -28,7 +28,7 @@ struct LinkGroup {
   std::vector<std::pair<const urdf::Link*, RigidTransform>> links;
 };
 
-/// Cuts the tree of links into groups.
+/// Divides the tree of links into groups.
 class Grouping {
  public:
   Grouping(const UrdfFile& file, std::vector<std::string>& warnings) : file_(file), warnings_(warnings) {}
@@ -52,7 +52,7 @@ class Grouping {
     return groups_.size() - 1;
   }
 
-  /// `X_LK`: the link in the frame of its group's first link.
+  /// `X_LK`: pose of the link in the frame of its group's first link.
   void walk(const urdf::Link* link, const RigidTransform& X_LK, std::size_t group) {
     const bool on_bench = is_bench_scene(file_) && link == file_.model->getRoot().get();
     for (const urdf::LinkSharedPtr& child : link->child_links) {
@@ -114,7 +114,7 @@ class BodyBuilder {
     const std::vector<geometry::Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
     const RigidMass mass = repaired_mass(given_L, shapes, body.material.density, where, warnings_);
     if (body.collision.empty()) warnings_.push_back(where + ": no collision shape: the body touches nothing");
-    validation::check_number(where, "mass", mass.mass, validation::between(0.0, most_mass));
+    validation::check_number(where, "mass", mass.mass, validation::between(0.0, max_mass));
     body.mass_properties = {mass.mass, mass.inertia};
     body.X_OL.translation() = -mass.centre;
     body.X_WO = body.X_WO * body.X_OL.inverse();
@@ -122,7 +122,7 @@ class BodyBuilder {
     for (geometry::Shape& shape : body.visual) shape.X_OS = body.X_OL * shape.X_OS;
   }
 
-  /// As the URDF says, in the frame of the group's first link. Zero where it says nothing.
+  /// Mass of a link from the URDF, in the frame of the group's first link; zero if the URDF gives none.
   RigidMass link_mass(const urdf::Link& link, const RigidTransform& X_LK, const std::vector<geometry::Shape>& shapes,
                       double density) {
     const std::string where = file_.where(link.name);
@@ -144,7 +144,7 @@ class BodyBuilder {
     return transformed(X_LK * to_transform(i.origin, where), {i.mass, Vector3d::Zero(), inertia});
   }
 
-  /// Of collision or visual elements, in the frame of the group's first link.
+  /// Shapes of collision or visual elements, in the frame of the group's first link.
   template <typename Element>
   std::vector<geometry::Shape> make_shapes(const urdf::Link& link, const RigidTransform& X_LK,
                                            const std::vector<Element>& elements) {
@@ -156,7 +156,7 @@ class BodyBuilder {
       shape.geometry = make_geometry(*element->geometry, where);
       if constexpr (std::is_same_v<Element, urdf::VisualSharedPtr>) {
         if (!element->material || !element->material->texture_filename.empty()) continue;
-        const urdf::Color& c = element->material->color;  // urdfdom takes 0 … 1 only
+        const urdf::Color& c = element->material->color;  // urdfdom accepts only 0 … 1
         shape.color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
         shape.color_given = true;
       }

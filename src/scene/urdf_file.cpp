@@ -20,7 +20,8 @@
 namespace spring_workbench::scene {
 namespace {
 
-/// Keeps what urdfdom says on the console while it lives. The console's handler is global: one reader at a time.
+/// Captures what urdfdom logs to the console during its lifetime. The console's handler is global, so there can be only
+/// one at a time.
 class ConsoleCapture : private console_bridge::OutputHandler {
  public:
   ConsoleCapture() : lock_(mutex()), previous_(console_bridge::getOutputHandler()) {
@@ -66,8 +67,8 @@ ParseResult parse(const TiXmlDocument& document) {
   return result;
 }
 
-/// urdfdom's first complaint about an element of a link, or nothing. Materials may be defined elsewhere: they are left
-/// out.
+/// urdfdom's first error message about an element of a link, or an empty string. Materials are removed first, because
+/// they may be defined elsewhere.
 std::string complaint_about(TiXmlElement element) {
   while (TiXmlElement* material = element.FirstChildElement("material")) element.RemoveChild(material);
   TiXmlElement link("link");
@@ -105,7 +106,8 @@ std::optional<double> mass_of(const TiXmlElement& inertial) {
   return value;
 }
 
-/// Takes an element that urdfdom cannot read out of its link, with a warning; refuses a known shape with bad values.
+/// Removes an element that urdfdom cannot read from its link, with a warning; refuses a known shape with invalid
+/// values.
 void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& complaint, UrdfFile& file) {
   const std::string name = link.Attribute("name");
   const std::string where = validation::one_line(place(file.path, element.Row()) + ": link '" + name + "': ");
@@ -142,8 +144,8 @@ int depth_below(const TiXmlNode& node) {
   return deepest;
 }
 
-/// Whether TinyXML can parse the text without crashing. It uses a stack frame for each level of nesting, and only
-/// TinyXML knows what it counts as an element: so if the stack might not suffice, a child process tries it first.
+/// Whether TinyXML can parse the text without crashing. It uses a stack frame per nesting level, and only TinyXML knows
+/// what it counts as an element, so if the stack might overflow, a child process tries first.
 bool can_be_parsed(const std::string& xml) {
   const auto parse = [&] {
     TiXmlDocument document;
@@ -164,8 +166,8 @@ TiXmlDocument load_xml(const std::string& path) {
   TiXmlDocument document;
   const bool parsed = can_be_parsed(text);
   if (parsed) document.Parse(text.c_str());
-  if (!parsed || depth_below(document) > most_nesting) {
-    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(most_nesting) +
+  if (!parsed || depth_below(document) > max_nesting) {
+    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(max_nesting) +
                                  " elements deep, and readable within 5 s and 1 GiB");
   }
   if (document.Error()) {
@@ -175,17 +177,17 @@ TiXmlDocument load_xml(const std::string& path) {
   return document;
 }
 
-/// The link that a joint goes from ("parent") or to ("child"); empty if it names none, which urdfdom reports.
+/// The "parent" or "child" link of a joint; empty if it names none, which urdfdom reports.
 std::string end_of(const TiXmlElement& joint, const char* which) {
   const TiXmlElement* end = joint.FirstChildElement(which);
   const char* link = end != nullptr ? end->Attribute("link") : nullptr;
   return link != nullptr ? link : "";
 }
 
-struct Hung {
+struct ChildLink {
   std::string parent;
   const TiXmlElement* joint;
-  std::size_t walk = 0;  ///< the first that came by
+  std::size_t walk = 0;  ///< number of the walk that first reached the link
 };
 
 [[noreturn]] void refuse_joint(const TiXmlElement& joint, const std::string& path) {
@@ -195,9 +197,9 @@ struct Hung {
                      "the child of no other joint, and not an ancestor of its parent");
 }
 
-/// Links make a tree; urdfdom takes others, too, walks them without an end, and never lets go of them.
+/// Refuses links that do not form a tree: urdfdom accepts loops, but then walks them endlessly and never frees them.
 void refuse_loops(const TiXmlElement& robot, const std::string& path) {
-  std::map<std::string, Hung> links;
+  std::map<std::string, ChildLink> links;
   for (auto joint = robot.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint")) {
     const std::string child = end_of(*joint, "child");
     if (!child.empty() && !links.insert({child, {end_of(*joint, "parent"), joint}}).second) refuse_joint(*joint, path);
@@ -226,8 +228,8 @@ UrdfFile read_urdf_file(const std::string& path) {
     refuse_loops(*robot, path);
     std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
-      if (++links > most_links)
-        throw validation::InputError(path + ": links: must be at most " + std::to_string(most_links) + ", got more");
+      if (++links > max_links)
+        throw validation::InputError(path + ": links: must be at most " + std::to_string(max_links) + ", got more");
       if (link->Attribute("name") == nullptr)
         throw validation::InputError(place(path, link->Row()) + ": link: name: missing; give each link a name");
       file.link_lines[link->Attribute("name")] = link->Row();

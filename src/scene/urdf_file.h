@@ -10,11 +10,11 @@
 
 namespace spring_workbench::scene {
 
-/// A URDF file as urdfdom reads it, with what it would have dropped in silence.
+/// A URDF file as read by urdfdom, with what urdfdom would have dropped silently.
 struct UrdfFile {
   std::string path;
   std::shared_ptr<urdf::ModelInterface> model;
-  /// Links whose `<inertial>` urdfdom cannot read, with the mass [kg] where that is given as a number > 0.
+  /// Links whose `<inertial>` urdfdom cannot read, with the mass [kg] if that is given as a number > 0.
   std::map<std::string, std::optional<double>> unreadable_inertials;
   std::map<std::string, int> link_lines;
   std::vector<std::string> warnings;
@@ -23,9 +23,9 @@ struct UrdfFile {
   std::string where(const std::string& link) const;
 };
 
-/// Reads a URDF. urdfdom stops reading a link at the first element that it does not understand and says so on the
-/// console only: each inertial, visual and collision is therefore tried by itself first, and what urdfdom does not know
-/// is taken out with a warning. Throws InputError with urdfdom's reason for everything else that it refuses.
+/// Reads a URDF. urdfdom stops reading a link at the first element that it does not understand, and reports it only on
+/// the console. So each inertial, visual and collision is first tried separately, and unknown ones are removed with a
+/// warning. Throws InputError with urdfdom's reason for everything else that it refuses.
 UrdfFile read_urdf_file(const std::string& path);
 
 }  // namespace spring_workbench::scene

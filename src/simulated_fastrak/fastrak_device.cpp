@@ -22,7 +22,7 @@ constexpr int kFieldMissing = -1, kNotANumber = -2, kOutOfRange = -3, kUnknownCo
 constexpr char kCtrlK = 0x0b, kCtrlQ = 0x11, kCtrlS = 0x13, kCtrlY = 0x19;
 const char* const kCommandsWithArguments = "AHINORelor";
 
-/// The numbers after a command's letter; nothing where one is none. Empty fields are NaN.
+/// Reads the numbers after a command's letter; returns false if one is invalid. Empty fields become NaN.
 bool read_arguments(const std::string& text, std::vector<double>& numbers) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -140,7 +140,7 @@ std::string FastrakDevice::immediate(char command) {
 std::string FastrakDevice::with_arguments(const std::string& command) {
   std::vector<double> numbers;
   if (!read_arguments(command.substr(1), numbers)) return error(command, kNotANumber);
-  if (command[0] == 'o') return "";  // the port's settings: there is no port here
+  if (command[0] == 'o') return "";  // port settings, which do not apply here
   if (std::isnan(numbers[0])) return error(command, kFieldMissing);
   if (numbers[0] < 1.0 || numbers[0] > kFastrakStations) return error(command, kOutOfRange);
   const int number = static_cast<int>(numbers[0]);
@@ -197,7 +197,7 @@ std::string FastrakDevice::set_active(int number, const std::vector<double>& arg
   return "";
 }
 
-/// The active station whose turn it is after `after`; `after` itself where there is no other.
+/// The next active station after `after`; `after` itself if there is no other.
 int FastrakDevice::next_active(int after) const {
   for (int i = 1; i < kFastrakStations; ++i) {
     const int station = (after - 1 + i) % kFastrakStations + 1;
@@ -216,7 +216,8 @@ std::string FastrakDevice::record(int number) const {
   FastrakRecord record;
   record.station = number;
   record.p_TS = sample.X.translation();
-  if (record.p_TS.dot(station.hemisphere) < 0.0) record.p_TS = -record.p_TS;  // cannot tell a point from its mirror
+  if (record.p_TS.dot(station.hemisphere) < 0.0)
+    record.p_TS = -record.p_TS;  // the device cannot distinguish a point from its mirror image
   record.q_TS = Quaterniond(sample.X.linear());
   record.button = has_switch(number) && sample.button;
   return FastrakLayout(station.items, format_, units_).encode(record);

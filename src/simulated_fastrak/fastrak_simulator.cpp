@@ -62,7 +62,7 @@ void FastrakSimulator::measure(double t) {
   t_ = t;
   const std::string record = device_.measure(t);
   if (record.empty() || !terminal_) return;
-  if (waiting_.size() > most_waiting) {
+  if (waiting_.size() > max_waiting) {
     ++dropped_;
     return;
   }

@@ -10,7 +10,7 @@ namespace spring_workbench::simulated_fastrak {
 namespace {
 
 const char* const kWhere = "command line";
-const char* const kLetters = "jklxy";  // of the device's own weak measurements
+const char* const kLetters = "jklxy";  // the device's error letters for weak signals
 
 }  // namespace
 
@@ -56,13 +56,13 @@ bool LineFaults::mode_changes(double before, double t) const {
 
 bool LineFaults::hits(double rate) { return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < rate; }
 
-std::size_t LineFaults::number(std::size_t least, std::size_t most) {
-  return std::uniform_int_distribution<std::size_t>(least, most)(random_);
+std::size_t LineFaults::random_number(std::size_t min, std::size_t max) {
+  return std::uniform_int_distribution<std::size_t>(min, max)(random_);
 }
 
 std::string LineFaults::noise(std::size_t size) {
   std::string bytes(size, ' ');
-  for (char& c : bytes) c = static_cast<char>(number(0, 255));
+  for (char& c : bytes) c = static_cast<char>(random_number(0, 255));
   return bytes;
 }
 
@@ -71,36 +71,36 @@ std::string LineFaults::pass(std::string record, double t) {
     if (record.empty() || t < fault.from || t >= fault.until) continue;
     if (fault.kind == Fault::Kind::silence || fault.kind == Fault::Kind::unplug) return "";
     if (fault.kind == Fault::Kind::wrong_mode || !hits(fault.rate)) continue;
-    if (fault.kind == Fault::Kind::garbage) spoil(record);
-    if (fault.kind == Fault::Kind::cut) shorten(record);
+    if (fault.kind == Fault::Kind::garbage) corrupt(record);
+    if (fault.kind == Fault::Kind::cut) truncate(record);
     if (fault.kind == Fault::Kind::error) report_error(record);
   }
   return record;
 }
 
-void LineFaults::spoil(std::string& record) {
-  const std::size_t at = number(0, record.size() - 1);
-  switch (number(0, 2)) {
-    case 0:  // added
-      record.insert(at, noise(number(1, longest_noise)));
+void LineFaults::corrupt(std::string& record) {
+  const std::size_t at = random_number(0, record.size() - 1);
+  switch (random_number(0, 2)) {
+    case 0:  // insert bytes
+      record.insert(at, noise(random_number(1, longest_noise)));
       break;
-    case 1: {  // instead of what was there
-      const std::size_t size = number(1, record.size() - at);
+    case 1: {  // overwrite bytes
+      const std::size_t size = random_number(1, record.size() - at);
       record.replace(at, size, noise(size));
       break;
     }
-    default:  // one bit
-      record[at] = static_cast<char>(static_cast<unsigned char>(record[at]) ^ (1U << number(0, 7)));
+    default:  // flip one bit
+      record[at] = static_cast<char>(static_cast<unsigned char>(record[at]) ^ (1U << random_number(0, 7)));
   }
 }
 
-void LineFaults::shorten(std::string& record) {
-  const std::size_t at = number(0, record.size() - 1);
-  record.erase(at, number(1, record.size() - at));
+void LineFaults::truncate(std::string& record) {
+  const std::size_t at = random_number(0, record.size() - 1);
+  record.erase(at, random_number(1, record.size() - at));
 }
 
 void LineFaults::report_error(std::string& record) {
-  const char letter = kLetters[number(0, 4)];
+  const char letter = kLetters[random_number(0, 4)];
   if (hits(0.5)) {
     if (record.size() > 2 && record[0] == '0') record[2] = letter;
   } else {

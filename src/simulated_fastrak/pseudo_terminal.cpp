@@ -27,7 +27,7 @@ PseudoTerminal::PseudoTerminal() {
   device_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   termios settings{};
   if (device_ < 0 || tcgetattr(device_, &settings) != 0) fail(path_);
-  cfmakeraw(&settings);  // else it would answer with an echo, and turn CR into LF
+  cfmakeraw(&settings);  // otherwise the terminal would echo input and convert CR to LF
   if (tcsetattr(device_, TCSANOW, &settings) != 0) fail(path_);
 }
 

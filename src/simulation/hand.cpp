@@ -49,8 +49,8 @@ void Hand::continue_from(Hand& before, const std::string& new_mass, double now) 
 }
 
 double Hand::reach() const {
-  if (tool_ == tools::Tool::direct) return least_length;
-  return tool_ == tools::Tool::ray ? std::max(ray_length_, least_length) : fork_.length;
+  if (tool_ == tools::Tool::direct) return min_length;
+  return tool_ == tools::Tool::ray ? std::max(ray_length_, min_length) : fork_.length;
 }
 
 void Hand::apply_buttons(double now) {
@@ -113,8 +113,7 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   if (settings_.grasp.calibrate == tools::Calibration::object) fit_size(grasp_);
   make_hold(now);
   if (settings_.grasp.calibrate == tools::Calibration::object) calibrate_hold();
-  // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the
-  // hand's.
+  // Strain is zero now. The object keeps its twist as far as the tool allows; with `start.follow` it takes the hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(objects_.states()[object].V_WO_W);
   objects_.hold(object, objects::Objects::Grip::grasp, now);
   objects_.take_state(object, hold_->object());
@@ -122,7 +121,7 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
 
 void Hand::keep_twist(const Twist& V_WO_W) {
   if (objects_.massless(grasp_.object)) return;
-  // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
+  // With all DOFs on, a fork can take any twist; the DOFs that are off then return to zero strain smoothly.
   hold_->set_dofs({true, true, true}, fork_.switch_off_time);
   hold_->take_twist(V_WO_W);
   hold_->set_dofs(maker().possible_dofs(grasp_, grasped_body()), fork_.switch_off_time);
@@ -131,11 +130,11 @@ void Hand::keep_twist(const Twist& V_WO_W) {
 void Hand::select_tool(tools::Tool tool, double now) {
   if (tool == tool_) return;
   tool_ = tool;
-  leave_with_probe(now);
+  end_touch(now);
   if (!tools::can_hold(tool)) let_go(settings_.grasp.release == tools::Release::thrown, now);
   if (!hold_) return;
   const Twist before = object().V_WO_W;
-  ray_length_ = std::max((stylus_.X_WS().inverse() * object().X_WO.translation()).z(), least_length);
+  ray_length_ = std::max((stylus_.X_WS().inverse() * object().X_WO.translation()).z(), min_length);
   grasp_ = grasp_of(grasp_.object);
   if (settings_.grasp.calibrate == tools::Calibration::object) fit_size(grasp_);
   make_hold(now);
@@ -159,7 +158,7 @@ void Hand::let_go(bool thrown, double now) {
 
 void Hand::set_clutch(bool on, double now) {
   stylus_.set_clutch(on, now);
-  if (!hold_ || (on && object().asleep)) return;  // it rests on
+  if (!hold_ || (on && object().asleep)) return;  // it stays asleep
   const Twist before = object().V_WO_W;
   const motion::MotionSegment at_rest(slip_.of(stylus_.X_WS()));
   hold_->set_hand(slip_.open() ? at_rest : stylus_.provisional(now), now);
@@ -186,11 +185,11 @@ bodies::SteppedBody* Hand::begin_step(double now, double h, const Wrench& load_W
   const bool was_asleep = o.asleep;
   o.asleep = hold_->sleeps(h, objects_.rests(grasp_.object));
   if (o.asleep) {
-    hold_->let_pass(h);
+    hold_->advance_at_rest(h);
     o.V_WO_W = Twist();
     return nullptr;
   }
-  if (was_asleep && scene_.contact == scene::ContactMode::stop) objects_.wake_what_lies_on(grasp_.object, now);
+  if (was_asleep && scene_.contact == scene::ContactMode::stop) objects_.wake_supported_by(grasp_.object, now);
   moved_ = true;
   return hold_.get();
 }
@@ -215,8 +214,8 @@ void Hand::change_fork(const ForkChange& change, ChangeReport& report) {
   if (change.changes_springs() && probe_) probe_->set_springs(fork_);
   if (!change.dofs || !hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
   if (hold_->set_dofs(maker().possible_dofs(grasp_, grasped_body()), fork_.switch_off_time)) {
-    report.message = "switched; the strain of what went off returns to zero with a time constant of " +
-                     std::to_string(fork_.switch_off_time) + " s and gives back its energy";
+    report.message = "switched; the strain of DOFs that were switched off returns to zero with a time constant of " +
+                     std::to_string(fork_.switch_off_time) + " s and releases its energy";
   }
 }
 
@@ -253,7 +252,7 @@ tools::ToolState Hand::state(double now) const {
 
 void Hand::exchange(math::StateArchive& state, double now) {
   bool holds = hold_ != nullptr, touches = probe_ != nullptr;
-  std::size_t touched = scene_.bodies.size();  // the bench
+  std::size_t touched = scene_.bodies.size();  // default: the bench
   if (touches && probe_->body() != nullptr) touched = static_cast<std::size_t>(probe_->body() - scene_.bodies.data());
   state(fork_.dofs, fork_.stiffness, fork_.damping_ratio, fork_.damping_coefficient, fork_.damping_law);
   state(tool_, stylus_, ray_length_, inserted_, pressed_, grasped_by_name_, pushes_, grasp_, slip_, holds, touches,

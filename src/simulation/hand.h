@@ -14,7 +14,7 @@
 
 namespace spring_workbench::simulation {
 
-/// Adds what a hold's steps estimate of their errors to the report of an advance.
+/// Adds the error estimates of a hold's steps to the report of an advance.
 void add_to(AdvanceReport& report, const stepping::StepEstimates& e);
 
 /// One hand: a stylus, the tool in it, and the object that the tool holds.
@@ -26,53 +26,53 @@ class Hand {
   /// Forgets all samples and holds nothing. The caller resets the objects.
   void reset();
 
-  /// Takes over the state of `before`, a hand in another scene, all of whose objects are also in this one and whose
-  /// probe touches nothing. If it holds the object `new_mass`, whose mass has changed, its springs keep their pull.
+  /// Takes over the state of `before`, a hand in another scene whose objects must all be in this one, too; its probe
+  /// must touch nothing. If it holds the object `new_mass`, whose mass has changed, the springs keep their force.
   void continue_from(Hand& before, const std::string& new_mass, double now);
 
   motion::Stylus& stylus() { return stylus_; }
   const motion::Stylus& stylus() const { return stylus_; }
 
-  /// Finds the object that the tip is in, to highlight it, or that the probe touches.
+  /// Finds the object that the tip is in, and highlights it, or the body that the probe touches.
   void select(double now);
   /// Grasps, releases and changes the tool, according to the button edges up to `now` and to `grasp.object`.
   void apply_buttons(double now);
   bool holds() const { return hold_ != nullptr; }
   void let_go(bool thrown, double now);
-  /// Takes the probe off what it touches, whose motion continues; if it is still in reach, it is touched again.
-  void leave_with_probe(double now);
-  /// Leaves the tool where it is while the hand moves alone (`on`), or lets it follow the hand again. A held object
-  /// keeps its twist.
+  /// Ends the touch of the probe; the touched object keeps its motion, and is touched again if it is still in reach.
+  void end_touch(double now);
+  /// Keeps the tool in place while the hand moves alone (`on`), or lets it follow the hand again. A held object keeps
+  /// its twist.
   void set_clutch(bool on, double now);
   /// Returns the object that the tool holds or the probe pushes.
   std::optional<std::size_t> carried() const {
     return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
   }
-  /// Returns the object that this tool alone holds, ready to be carried over the next `h` [s] under a load
-  /// (tools::ToolHold::set_load); null if it rests and nothing has to be done.
+  /// Returns the object that this tool alone holds, ready for a step of `h` [s] under a load
+  /// (tools::ToolHold::set_load); null if it is at rest and needs no step.
   bodies::SteppedBody* begin_step(double now, double h, const Wrench& load_W);
-  /// Prepares a step of a tool that shares its object with other tools, or pushes it.
+  /// Prepares a step of a tool that shares its object with other tools or pushes it.
   tools::ToolOnObject begin_shared_step(double now);
   /// Returns the object that the tool pushes, as a body that no tool holds.
   std::unique_ptr<tools::ToolHold> make_unheld(double now) const {
     return maker().make_unheld(grasped_body(), object().V_WO_W, now);
   }
-  /// Ends a step, after the object has been carried.
+  /// Ends a step, after the object has been stepped.
   void end_step(AdvanceReport& report);
 
-  /// Changes the tool, also while it holds an object: the object continues from its pose and twist, and the strain of
-  /// the new tool is zero.
+  /// Changes the tool, also while it holds an object: the object continues from its pose and twist, and the new tool
+  /// starts without strain.
   void select_tool(tools::Tool tool, double now);
   /// Returns the wrench of the springs on the held object, at its centre, world axes.
   Wrench spring_pull() const { return hold_->spring_pull(); }
-  /// Makes this tool exert `pull_W` on the object from now on; the object does not move.
+  /// Makes this tool exert `pull_W` on the object from now on, without moving the object.
   void take_over(const Wrench& pull_W, double now);
 
-  /// The fork of this hand: as set, changed and calibrated since.
+  /// The fork of this hand, with all changes and calibrations since the start.
   const rod::ForkSettings& fork() const { return fork_; }
-  /// Changes the fork, also while it holds an object. The change must be valid.
+  /// Changes the fork, even while it holds an object. The change must be valid.
   void change_fork(const ForkChange& change, ChangeReport& report);
-  /// Adopts the integrator, step and tolerance of the settings, which have been changed before.
+  /// Adopts the changed integrator, step and tolerance of the settings.
   void change_integrator() {
     if (hold_) hold_->set_step_control(settings_.dynamics);
   }
@@ -86,40 +86,40 @@ class Hand {
   }
   /// Returns whether the hand holds an object with mass on springs.
   bool springs() const { return dynamic() && !objects_.massless(grasp_.object); }
-  /// The object on the tool that slips in the hand and does no more than that, ready to be carried over a step.
+  /// Returns the held object for a step in which the tool slips in the hand and exerts `at_tip_W`.
   bodies::SteppedBody* begin_slip(const Wrench& at_tip_W);
-  /// After a step of `h` [s] in which it slipped, with the stylus where it is now.
+  /// Ends a step of `h` [s] in which the tool slipped, with the stylus at its present pose.
   void end_slip(const Wrench& at_tip_W, double h) {
     slip_.begin(stylus_.X_WS(), hold_->slip(h, {object().X_WO, object().V_WO_W, {}}, at_tip_W));
   }
   void begin_call() { moved_ = false; }
   tools::ToolState state(double now) const;
 
-  /// Exchanges the state between two calls of `advance`; settings and objects have to be exchanged before.
+  /// Saves or restores the state between two calls of `advance`; settings and objects have to be exchanged first.
   void exchange(math::StateArchive& state, double now);
 
  private:
-  /// The paper, section 5: insert the fork, adjust it, press and hold, let go. Pressing in the air grasps nothing, also
-  /// when the tip enters an object afterwards with the button still down.
+  /// Grasping as in the paper, section 5: insert the fork, adjust it, press and hold, release. A press outside any
+  /// object grasps nothing, even if the tip enters an object with the button still down.
   void apply_grasp_button(bool pressed, double now);
   void select_pierced();
   void touch_with_probe(double now);
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
-  bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< whether there is something to integrate
-  const bodies::BodyState& object() const { return objects_.states()[grasp_.object]; }  ///< that is held, or pushed
-  /// How far the tip is in front of the hand, along z [m].
+  bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< whether there are coordinates to integrate
+  const bodies::BodyState& object() const { return objects_.states()[grasp_.object]; }  ///< the held or pushed object
+  /// Distance of the tip from the hand, along z [m].
   double reach() const;
   tools::GraspedBody grasped_body() const {
     return {objects_.scene_index(grasp_.object), objects_.body(grasp_.object), object().X_WO};
   }
-  /// Returns the grasp of the object at its present pose, for a tool of its usual size.
+  /// Returns the grasp of the object at its present pose, for a tool of default size.
   tools::Grasp grasp_of(std::size_t object) const;
   /// Fits the length of the fork's spring part to the size of an object that has mass.
   void fit_size(tools::Grasp& grasp) const;
   tools::HoldMaker maker() const { return {fork_, settings_.dynamics, scene_.gravity}; }
   void make_hold(double now);
   bool to_world() const { return settings_.grasp.calibrate == tools::Calibration::world; }
-  /// Sets springs and dampers for the held object, or those for the whole scene, as the settings specify. Returns false
+  /// Sets springs and dampers for the held object or for the whole scene, as specified in the settings. Returns false
   /// if the tool has no springs.
   bool calibrate_hold();
   /// Gives the held object this twist, whichever DOFs are off.
@@ -133,19 +133,19 @@ class Hand {
   objects::Objects& objects_;
   tools::Tool tool_;
   motion::Stylus stylus_;
-  double ray_length_;                    ///< to what the ray hits [m]
-  std::optional<std::size_t> inserted_;  ///< the object that the tip is in, or the ray on, while nothing is held
-  bool pressed_ = false;                 ///< the grasp button
+  double ray_length_;                    ///< length of the ray up to what it hits [m]
+  std::optional<std::size_t> inserted_;  ///< the object that the tip is in, or that the ray hits, while nothing is held
+  bool pressed_ = false;                 ///< whether the grasp button is down
   bool grasped_by_name_ = false;
   std::unique_ptr<tools::ToolHold> hold_;  ///< while something is held
   std::unique_ptr<tools::Probe> probe_;    ///< while the probe touches something
-  bool pushes_ = false;                    ///< what the probe touches can move, and is the grip's object
+  bool pushes_ = false;                    ///< whether the touched body is movable; it is then the grasp's object
   tools::Grasp grasp_{tools::Tool::spring_fork,   0,   RigidTransform::Identity(),
-                      RigidTransform::Identity(), 0.0, 0.0};  ///< of what is held
-  bool moved_ = false;                                        ///< what is held, in this call of advance
+                      RigidTransform::Identity(), 0.0, 0.0};  ///< grasp of the held object
+  bool moved_ = false;  ///< whether the held object has moved in this call of advance
   double energy_added_before_ = 0.0;
   motion::Slip slip_;
-  std::unique_ptr<bodies::SteppedBody> pulled_;  ///< what is held, in a step in which the tool slips
+  std::unique_ptr<bodies::SteppedBody> pulled_;  ///< the held object, in a step in which the tool slips
 };
 
 }  // namespace spring_workbench::simulation

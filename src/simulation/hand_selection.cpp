@@ -1,4 +1,4 @@
-// What a hand points at, is in, or touches with the probe.
+// Selection: the body that a hand points at, that its tip is in, or that its probe touches.
 #include <limits>
 #include <utility>
 
@@ -20,7 +20,7 @@ void Hand::select(double now) {
 void Hand::select_pierced() {
   const std::optional<std::size_t> before = std::exchange(inserted_, std::nullopt);
   const bool picks = tool_ == tools::Tool::ray;
-  // The nearest thing in the way of the hand, and the objects that the tip is in.
+  // The nearest body in front of the hand, ignoring the objects that the tip is in.
   const tools::AxisHit front =
       tools::first_on_axis(scene_, objects_.states(), around_, stylus_.X_WS(), picks ? longest_ray : reach(),
                            [&](const scene::Body& body, const RigidTransform& X_OH) {
@@ -35,7 +35,7 @@ void Hand::select_pierced() {
     const bool pierced = picks ? front.body == &objects_.body(i)
                                : front.body == nullptr && around_.may_contain(objects_.scene_index(i), away) &&
                                      geometry::contains(objects_.body(i).collision, X_WO.inverse() * tip);
-    const double distance = away.norm() * (before == i ? another_is_nearer : 1.0);
+    const double distance = away.norm() * (before == i ? switch_ratio : 1.0);
     if (!pierced || distance >= nearest) continue;
     nearest = distance;
     inserted_ = i;
@@ -44,14 +44,14 @@ void Hand::select_pierced() {
 }
 
 void Hand::touch_with_probe(double now) {
-  if (!stylus_.known(now)) return leave_with_probe(now);
+  if (!stylus_.known(now)) return end_touch(now);
   const double length = fork_.length;
   tools::AxisHit front = tools::first_on_axis(scene_, objects_.states(), around_, stylus_.X_WS(), length,
                                               [](const scene::Body&, const RigidTransform&) { return false; });
   const double down = -stylus_.X_WS().linear()(2, 2), height = stylus_.X_WS().translation().z() - scene_.bench_height;
   if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};
-  const bool touches = front.material != nullptr && front.distance > 0.0;  // at 0 the hand itself is inside
-  if (probe_ && (!touches || front.body != probe_->body())) leave_with_probe(now);
+  const bool touches = front.material != nullptr && front.distance > 0.0;  // at 0 the hand itself is inside the body
+  if (probe_ && (!touches || front.body != probe_->body())) end_touch(now);
   if (!touches) return;
   if (probe_) {
     probe_->touch(front);
@@ -64,7 +64,7 @@ void Hand::touch_with_probe(double now) {
   if (!pushes_) probe_->press();
 }
 
-void Hand::leave_with_probe(double now) {
+void Hand::end_touch(double now) {
   if (pushes_) objects_.let_go(grasp_.object, objects::Objects::Grip::push, true, now);
   pushes_ = false;
   probe_.reset();

@@ -18,8 +18,8 @@ using S = SimulationSettings;
 using validation::between;
 using validation::NumberRule;
 
-/// One key of some settings. Values from files, parameters, command lines and C++ are all checked by its one rule.
-/// Refers to the settings that the table was made for.
+/// One key of the settings, with a single rule that checks values from files, parameters, command lines and C++. Refers
+/// to the settings that the table was made for.
 struct Field {
   SettingDescription description;
   std::function<void(const YAML::Node&, const std::string& where)> read;
@@ -41,7 +41,7 @@ std::string text_of(double value) {
   return std::isinf(value) ? ".inf" : out.str();
 }
 
-/// `value`: a number, or an optional one, where `absent` says what is used without it.
+/// `value`: a number or an optional number; `absent` describes what is used if it is absent.
 template <typename T>
 Field number(const char* key, const char* unit, const NumberRule& rule, const char* meaning, T& value,
              const char* absent = "") {
@@ -68,7 +68,7 @@ Field flag(const char* key, const char* meaning, bool& value) {
           [](const auto&) {}};
 }
 
-/// `value`: an enum's, or an optional one, as of number().
+/// `value`: an enum or an optional enum; see number().
 template <typename T>
 Field choice(const char* key, const char* meaning, T& value, const char* absent = "") {
   using E = std::decay_t<decltype(*given(value))>;
@@ -115,7 +115,7 @@ std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
       number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
              "0: fixed steps; otherwise steps are short enough to keep the error of the run near this value",
              d.tolerance),
-      flag("error_bound", "follow the error of the run and report a bound of it", d.error_bound),
+      flag("error_bound", "propagate the error of the run and report a bound of it", d.error_bound),
       choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m", d.inertia),
   };
 }
@@ -197,7 +197,7 @@ std::vector<Field> grasp_fields(S& s) {
       {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
         "this object is held from the first sample to the last"},
        [&](const auto& node, const auto& where) { object = config::read_string(node, where, "grasp.object"); },
-       [](const auto&) {}},  // which objects there are, the scene knows
+       [](const auto&) {}},  // checked against the scene later
       {{"grasp.tip_in_object", "double list", "m, –", "x y z qx qy qz qw, the quaternion nonzero",
         "the pose of the tip at the grasp", "the tip frame in the object's centre-of-mass frame"},
        [&](const auto& node, const auto& where) { tip = config::read_pose(node, where, "grasp.tip_in_object"); },
@@ -208,9 +208,9 @@ std::vector<Field> grasp_fields(S& s) {
       flag("start.follow", "move the object so that the grasp fits the first pose of the handle", s.grasp.start_follow),
       choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)", s.grasp.release),
       number("dropout_after", "s", validation::positive_or_infinite(),
-             "if the gap between two samples is longer, the handle stays still until the next sample", s.dropout_after),
+             "if the gap between two samples is longer, the handle is at rest until the next sample", s.dropout_after),
       number("external_wrench_timeout", "s", between(1e-3, 10.0),
-             "if no external wrench of a machine comes for longer, it is zero until the next one", s.wrench_timeout),
+             "if no external wrench of a machine arrives for longer, it is zero until the next one", s.wrench_timeout),
       integer("bisection_levels", 0, 30,
               "number of bisections that find the end of a step in which contact begins (section 5 of the paper); 0: "
               "the time of impact is computed instead",
@@ -218,7 +218,7 @@ std::vector<Field> grasp_fields(S& s) {
   };
 }
 
-/// Every key there is: the one table.
+/// The table of all keys.
 std::vector<Field> fields(S& s) {
   std::vector<Field> all;
   for (auto& group : {scene_fields(s), dynamics_fields(s.dynamics), fork_fields(s.fork), calibration_fields(s.grasp),
@@ -253,7 +253,7 @@ const Field& find_field(const std::vector<Field>& table, const std::string& key,
       validation::one_line(where + ": " + key + ": " + validation::unknown_key(key, validation::join(known))));
 }
 
-/// Values that each are allowed, and do not go with each other.
+/// Refuses combinations of values that are each valid but incompatible.
 void check_together(const S& settings, const std::string& where) {
   const rod::ForkSettings& fork = settings.fork;
   const rod::PerDof& ratio = fork.damping_ratio;
@@ -277,7 +277,7 @@ Twist at_hand(const Twist& V_W, const SimulationSettings& settings) {
 }
 
 void validate(const SimulationSettings& settings, const std::string& where) {
-  S copy = settings;  // its fields are found by reference
+  S copy = settings;  // the fields refer to it
   for (const Field& field : fields(copy)) field.check(where);
   check_together(settings, where);
 }

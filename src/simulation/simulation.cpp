@@ -27,7 +27,7 @@ constexpr double same_time = motion::Stylus::same_time;
 
 using Action = ObjectEdit::Action;
 
-/// Throws InputError if the edit does not match the scene.
+/// Applies an edit to the scene. Throws InputError if it does not match the scene.
 void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bool massless, scene::Scene& scene) {
   const std::string where = "edit_object";
   validate(edit);
@@ -45,7 +45,7 @@ void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bo
   scene.targets.erase(edit.object);
 }
 
-/// The edits and one more, without those that it supersedes.
+/// Appends an edit and drops those that it supersedes.
 std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& edit) {
   bool was_added = false;
   const auto superfluous = [&](const ObjectEdit& other) {
@@ -75,8 +75,8 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   return scene;
 }
 
-/// What a simulation that continues from a state of this one must be made with, a line per property.
-std::string made_with(const scene::Scene& given, scene::ContactMode contact, const SimulationSettings& settings) {
+/// The properties that a simulation must share to be restored from a state of this one, one per line.
+std::string origin_of(const scene::Scene& given, scene::ContactMode contact, const SimulationSettings& settings) {
   std::string text = "contact " + validation::name_of(contact) + "\nshape " + validation::name_of(settings.fork.shape) +
                      "\n" + std::to_string(settings.styluses) + " styluses\nbodies";
   for (const scene::Body& body : given.bodies) text += " " + body.name;
@@ -84,7 +84,7 @@ std::string made_with(const scene::Scene& given, scene::ContactMode contact, con
 }
 
 /// Throws InputError naming the first property that differs.
-void check_made_with(const std::string& saved, const std::string& present) {
+void check_origin(const std::string& saved, const std::string& present) {
   if (saved == present) return;
   std::istringstream of_saved(saved), of_present(present);
   for (std::string was, is; std::getline(of_present, is);) {
@@ -106,16 +106,16 @@ bool changes(const ForkChange& change, const rod::ForkSettings& fork) {
 struct Simulation::Impl {
   const scene::Scene given_scene;
   const SimulationSettings given_settings;
-  std::vector<ObjectEdit> edits;  ///< of the given scene
+  std::vector<ObjectEdit> edits;  ///< edits of the given scene
   SimulationSettings settings;
   const scene::Scene scene;
-  const std::string origin;        ///< of its states
-  std::size_t words_of_state = 0;  ///< of the last one saved
+  const std::string origin;        ///< origin that its states carry
+  std::size_t words_of_state = 0;  ///< size of the last saved state
   objects::Objects objects;
   std::vector<Hand> hands;
   bool started = false;
-  double now = 0.0;        ///< in the world, as all times in here
-  double asked_for = 0.0;  ///< the hand's time that was last asked for
+  double now = 0.0;             ///< world time, like all times in this class
+  double requested_time = 0.0;  ///< the last requested time, in the hand's time
 
   Impl(const scene::Scene& s, const SimulationSettings& set, std::vector<ObjectEdit> edited = {},
        const std::vector<std::string>& roots = {})
@@ -124,7 +124,7 @@ struct Simulation::Impl {
         edits(std::move(edited)),
         settings(set),
         scene(set_up(s, set, edits, roots)),
-        origin(made_with(s, scene.contact, set)),
+        origin(origin_of(s, scene.contact, set)),
         objects(scene, set.bisection_levels) {
     const auto tool = validation::named<tools::Tool>(scene.tool, scene.path, "tool");
     if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
@@ -135,17 +135,18 @@ struct Simulation::Impl {
     validation::refuse("simulation", "hand", std::to_string(index), "less than " + std::to_string(hands.size()));
   }
   double in_world(double t) const { return settings.hand_time_scale * t; }
-  /// Converts world time to the hand's: exactly the requested time if that is meant, so that asking again changes
-  /// nothing.
-  double of_hand(double t) const { return t == in_world(asked_for) ? asked_for : t / settings.hand_time_scale; }
-  /// That hand, or each.
+  /// Converts world time to the hand's; exact for the last requested time, so that requesting it again changes nothing.
+  double of_hand(double t) const {
+    return t == in_world(requested_time) ? requested_time : t / settings.hand_time_scale;
+  }
+  /// The hand with this index, or all hands.
   std::vector<Hand*> chosen(std::optional<std::size_t> index) {
     if (index) return {&hand(*index)};
     std::vector<Hand*> all;
     for (Hand& hand : hands) all.push_back(&hand);
     return all;
   }
-  /// One fork for all objects (doc/model.md, "Calibration").
+  /// Calibrates one fork for all objects (doc/model.md, "Calibration").
   void fit_to_world() {
     const tools::WorldGoal& goal = settings.grasp.world_goal;
     settings.fork.stiffness =
@@ -153,35 +154,35 @@ struct Simulation::Impl {
     tools::damp_calibrated(settings.fork);
   }
 
-  /// The time of the first sample of all; infinity before there is one.
+  /// The time of the first sample of any hand; infinity if there is none.
   double first_sample() const;
   void start(double t_end);
   void advance(double t_end, AdvanceReport& report);
   void act(AdvanceReport& report);
-  /// What the hands held before a change, and what their springs did; of with_handover() alone.
+  /// The held objects and spring forces before a change; used only by with_handover().
   std::vector<std::pair<std::optional<std::size_t>, Wrench>> held_before;
-  /// Does `change`, by which a hand may let go. The others that held the same take over what its springs did.
+  /// Makes `change`, by which a hand may release its object; other hands on it take over the force of its springs.
   template <typename Change>
   void with_handover(Change&& change);
   Wrench measured_load(std::size_t object, const std::vector<Hand*>& on_it) const;
   double next_sample(double after) const;
   double next_edge() const;
   double end_of_step(double t_end) const;
-  using Slipping = std::map<Hand*, Wrench>;  ///< what these may do to what they hold
+  using Slipping = std::map<Hand*, Wrench>;  ///< limited wrenches of slipping tools on their objects
   bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
-  std::vector<objects::Carried> carried;  ///< of one step, kept for its memory, as `together`
-  std::vector<Hand*> together;            ///< on one object
+  std::vector<objects::Carried> carried;  ///< bodies of one step; a member to reuse its memory, like `together`
+  std::vector<Hand*> together;            ///< hands on one object
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
   void step(double end, AdvanceReport& report);
-  /// `some`: of the objects, these alone; null: all.
+  /// Saves or restores the state. `some`: only these objects; null: all.
   void exchange(math::StateArchive& state, const std::vector<std::size_t>* some = nullptr);
   void set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some = nullptr);
   double elastic_energy() const;
   void move(const ObjectEdit& edit);
-  /// Takes over the state of `before`, whose scene is the same but for `edit`.
+  /// Takes over the state of `before`, whose scene differs only by `edit`.
   void continue_from(Impl& before, const ObjectEdit& edit);
   void check_place(const std::string& name, const RigidTransform& X_WO) const;
-  void check(const ForkChange& of_fork, const DynamicsChange& of_dynamics) const;
+  void check(const ForkChange& fork_change, const DynamicsChange& dynamics_change) const;
   void fill_subsystems(AdvanceReport& report) const;
 };
 
@@ -226,7 +227,7 @@ void Simulation::Impl::with_handover(Change&& change) {
   }
 }
 
-/// Highlights, grasps and releases, and takes the wrenches that act from now on.
+/// Updates highlights, grasps and releases, and the external wrenches that act from now on.
 void Simulation::Impl::act(AdvanceReport& report) {
   objects.clear_highlights();
   for (Hand& hand : hands) report.wrench_timeouts += hand.stylus().follow_wrench(now) ? 1 : 0;
@@ -250,18 +251,18 @@ double Simulation::Impl::next_edge() const {
   return next;
 }
 
-/// Where a step from now ends: at the next sample, button edge or change of a wrench, or sooner.
+/// End time of the next step: at the next sample, button edge or change of a wrench, or earlier.
 double Simulation::Impl::end_of_step(double t_end) const {
   const double next_sample = this->next_sample(now), next_edge = this->next_edge();
-  // Equal steps up to the sample or the end rather than a last small one.
+  // Equal steps up to the sample or the end, instead of a small last step.
   const double stretch_end = next_sample < t_end + same_time ? next_sample : t_end;
   const double count = std::ceil((stretch_end - now) / settings.dynamics.step - 1e-9);
   const double end = count > 1.0 ? now + (stretch_end - now) / count : stretch_end;
-  // An edge that differs from that by a rounding error makes no step of its own.
+  // An edge that differs only by a rounding error does not get a step of its own.
   return std::abs(next_edge - end) < same_time ? std::max(end, next_edge) : std::min(end, next_edge);
 }
 
-/// What machines measure on an object that these hands hold, at its centre, world axes, in virtual units.
+/// Sum of the external wrenches on an object that these hands hold, at its centre, world axes, in virtual units.
 Wrench Simulation::Impl::measured_load(std::size_t object, const std::vector<Hand*>& on_it) const {
   Wrench load_W;
   for (const Hand* hand : on_it) {
@@ -273,7 +274,7 @@ Wrench Simulation::Impl::measured_load(std::size_t object, const std::vector<Han
   return load_W;
 }
 
-/// An object that one tool holds is that tool's.
+/// Steps all bodies. An object that one tool holds is stepped by that tool, a shared one by its leader.
 void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& report) {
   std::map<std::size_t, tools::Sharing> shared;
   carried.clear();
@@ -317,12 +318,12 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   for (Hand& hand : hands) hand.end_step(report);
 }
 
-/// The hands that do more than their limit now and have to let go, and those that slip. False when there is none more.
+/// Finds the hands that exceed their limit now, and have to release or slip. Returns false if there are no more.
 bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go) {
   const std::size_t slipped = slipping.size();
   for (Hand& hand : hands) {
     if (slipping.count(&hand) > 0 || !hand.springs()) continue;
-    const std::optional<Wrench> pull = instruments::cut_down(settings.limit, hand.state(now));
+    const std::optional<Wrench> pull = instruments::limited_wrench(settings.limit, hand.state(now));
     if (!pull) continue;
     const bool alone = std::none_of(hands.begin(), hands.end(), [&](const Hand& other) {
       return &other != &hand && other.holds() && other.carried() == hand.carried();
@@ -336,8 +337,8 @@ bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let
   return slipping.size() > slipped || !let_go.empty();
 }
 
-/// Where a tool would do more than its limit, the step is taken again without it, or with what it can do (doc/model.md,
-/// "At the limit").
+/// Takes a step. If a tool would exceed its limit, the step is repeated without it, or with its limit wrench
+/// (doc/model.md, "At the limit").
 void Simulation::Impl::step(double end, AdvanceReport& report) {
   const double h = end - now;
   const bool limited = std::isfinite(settings.limit.force) || std::isfinite(settings.limit.moment);
@@ -463,7 +464,7 @@ double Simulation::next_edge() const {
 AdvanceReport Simulation::advance(double t_end) {
   validation::check_number("advance", "t_end", t_end, validation::any_number());
   AdvanceReport report;
-  impl_->asked_for = t_end;
+  impl_->requested_time = t_end;
   impl_->advance(impl_->in_world(t_end), report);
   report.simulated_time /= impl_->settings.hand_time_scale;
   report.time_lost /= impl_->settings.hand_time_scale;
@@ -516,12 +517,12 @@ ChangeReport Simulation::select_tool(tools::Tool tool, std::optional<std::size_t
   return change;
 }
 
-/// Throws InputError unless every fork, and the settings, are fit for the changes.
-void Simulation::Impl::check(const ForkChange& of_fork, const DynamicsChange& of_dynamics) const {
+/// Throws InputError unless the changes are valid for all forks and for the settings.
+void Simulation::Impl::check(const ForkChange& fork_change, const DynamicsChange& dynamics_change) const {
   SimulationSettings changed = settings;
-  changed.dynamics = of_dynamics.applied_to(settings.dynamics);
+  changed.dynamics = dynamics_change.applied_to(settings.dynamics);
   for (const Hand& hand : hands) {
-    changed.fork = of_fork.applied_to(hand.fork());
+    changed.fork = fork_change.applied_to(hand.fork());
     validate(changed, "new settings");
   }
 }
@@ -534,7 +535,7 @@ ChangeReport Simulation::change(const ForkChange& change, std::optional<std::siz
     if (changes(change, of->fork())) of->change_fork(change, report);
   }
   report.elastic_energy_after = impl_->elastic_energy();
-  if (report.message.empty()) report.message = change.empty() ? "nothing changed" : "set; the strain stays as it is";
+  if (report.message.empty()) report.message = change.empty() ? "nothing changed" : "set; the strain is unchanged";
   return report;
 }
 
@@ -544,10 +545,10 @@ void Simulation::change(const DynamicsChange& change) {
   for (Hand& hand : impl_->hands) hand.change_integrator();
 }
 
-void Simulation::change(const ForkChange& of_fork, const DynamicsChange& of_dynamics) {
-  impl_->check(of_fork, of_dynamics);
-  if (!of_fork.empty()) change(of_fork);
-  if (!of_dynamics.empty()) change(of_dynamics);
+void Simulation::change(const ForkChange& fork_change, const DynamicsChange& dynamics_change) {
+  impl_->check(fork_change, dynamics_change);
+  if (!fork_change.empty()) change(fork_change);
+  if (!dynamics_change.empty()) change(dynamics_change);
 }
 
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
@@ -568,28 +569,28 @@ void Simulation::Impl::move(const ObjectEdit& edit) {
   }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
   check_place(edit.object, X_WO);
-  objects.wake_what_lies_on(object, now);
+  objects.wake_supported_by(object, now);
   objects.place(object, X_WO, now);
 }
 
 void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   now = before.now;
-  asked_for = before.asked_for;
+  requested_time = before.requested_time;
   started = before.started;
   settings.dynamics = before.settings.dynamics;
   if (edit.action == Action::add) {
     objects.continue_from(before.objects, now);
     check_place(edit.object, scene.bodies.back().X_WO);
   }
-  // From here on nothing is refused.
+  // From here on nothing can fail.
   const std::size_t edited = before.objects.find(edit.object).value_or(0);
   before.with_handover([&] {
     for (Hand& hand : before.hands) {
-      hand.leave_with_probe(now);
+      hand.end_touch(now);
       if (edit.action == Action::remove && hand.carried() == edited) hand.let_go(false, now);
     }
   });
-  if (edit.action == Action::remove) before.objects.wake_what_lies_on(edited, now);
+  if (edit.action == Action::remove) before.objects.wake_supported_by(edited, now);
   objects.continue_from(before.objects, now);
   for (std::size_t i = 0; i < hands.size(); ++i) {
     hands[i].continue_from(before.hands[i], edit.action == Action::mass ? edit.object : "", now);
@@ -603,7 +604,7 @@ ChangeReport Simulation::edit(const ObjectEdit& edit, const std::vector<std::str
   if (edit.action == Action::move) {
     impl_->move(edit);
   } else {
-    scene::Scene edited = impl_->scene;  // refused here if it does not fit what there is
+    scene::Scene edited = impl_->scene;  // throws here if the edit does not match the scene
     make_edit(edit, roots, impl_->settings.massless, edited);
     auto next = std::make_unique<Impl>(impl_->given_scene, impl_->given_settings, with(impl_->edits, edit), roots);
     next->continue_from(*impl_, edit);
@@ -627,7 +628,7 @@ ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
   for (Hand* of : impl_->chosen(hand)) done = of->calibrate(change, impl_->now) || done;
-  if (!done) throw validation::InputError("calibrate: no object is held by a fork or a spring; call it while one is");
+  if (!done) throw validation::InputError("calibrate: no fork or spring holds an object; call it while one does");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }
@@ -645,7 +646,7 @@ SimulationState Simulation::save() const {
 
 void Simulation::restore(const SimulationState& state) {
   const SimulationState present = save();
-  check_made_with(state.origin_, present.origin_);
+  check_origin(state.origin_, present.origin_);
   try {
     std::vector<ObjectEdit> edits;
     math::StateArchive head(state.words_);

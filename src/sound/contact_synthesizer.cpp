@@ -13,12 +13,14 @@ ContactSynthesizer::ContactSynthesizer(double volume) : volume_(volume) {
 }
 
 ContactSynthesizer::Voice ContactSynthesizer::voice_of(const SoundingBody& body) {
-  // Of a small wooden block: frequency [Hz], time to 1/e [s], share.
+  // Modes of a small wooden block: frequency [Hz], decay time to 1/e [s], relative amplitude.
   constexpr double ringing[4][3] = {
       {420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
   const SoundingBody block;
   const double density = body.mass / std::pow(body.size, 3), of_block = block.mass / std::pow(block.size, 3);
-  const double touch = M_PI * std::sqrt(body.mass / struck_stiffness);  // half a period of the body on its contact
+  const double touch =
+      M_PI * std::sqrt(body.mass /
+                       struck_stiffness);  // duration of the impact: half a period of the body on its contact spring
   Voice voice{body, {}};
   for (std::size_t i = 0; i < voice.modes.size(); ++i) {
     const double frequency = std::clamp(ringing[i][0] * block.size / body.size, lowest_pitch, highest_pitch);
@@ -40,7 +42,7 @@ ContactSynthesizer::Voice& ContactSynthesizer::find_voice(const SoundingBody& bo
   const auto of_body = [&](const Voice& voice) { return voice.body == body; };
   const auto found = std::find_if(voices_.begin(), voices_.end(), of_body);
   if (found != voices_.end()) return *found;
-  if (voices_.size() < most_voices) return voices_.emplace_back(voice_of(body));
+  if (voices_.size() < max_voices) return voices_.emplace_back(voice_of(body));
   const auto softer = [](const Voice& a, const Voice& b) { return a.loudness() < b.loudness(); };
   return *std::min_element(voices_.begin(), voices_.end(), softer) = voice_of(body);
 }
@@ -80,13 +82,13 @@ double ContactSynthesizer::ringing() {
 
 double ContactSynthesizer::scraping() {
   heard_speed_ += (speed_ - heard_speed_) / (fade_time * sample_rate);
-  noise_ = noise_ * 1664525u + 1013904223u;  // Numerical Recipes' quick generator
+  noise_ = noise_ * 1664525u + 1013904223u;  // linear congruential generator from Numerical Recipes
   const double white = static_cast<double>(noise_ >> 8) / (1 << 23) - 1.0;
   const double loudness = heard_speed_ / (heard_speed_ + half_speed);
   const double frequency = 300.0 + 2500.0 * loudness;  // [Hz]
   const double f = 2.0 * std::sin(M_PI * frequency / sample_rate);
   low_ += f * band_;
-  band_ += f * (white - low_ - band_);  // Chamberlin's filter with quality 1
+  band_ += f * (white - low_ - band_);  // Chamberlin's state variable filter with Q = 1
   return scrape_gain * loudness * band_;
 }
 

@@ -17,7 +17,7 @@ std::string bytes_of(std::uint32_t value, int bytes) {
   return text;
 }
 
-/// RIFF WAVE with one channel of 16 bit, little endian, which has its name once it is whole.
+/// RIFF WAVE file with one channel of 16 bits, little endian, which gets its final name once it is complete.
 class WavFile final : public AudioOutput {
  public:
   explicit WavFile(const std::string& path) : file_(path) { file_.write(header()); }

@@ -12,20 +12,20 @@
 namespace spring_workbench::tools {
 namespace {
 
-/// A body of 1 kg at rest on a fork with all degrees of freedom: all forces are proportional to the mass, so that its
-/// stiffness is that for each kilogram.
-class Weighed {
+/// A body of 1 kg at rest on a fork with all degrees of freedom. All forces are proportional to the mass, so its
+/// stiffness is the stiffness per kilogram.
+class UnitMassOnFork {
  public:
   /// `turn`: rotation vector of the handle in world.
-  Weighed(const std::shared_ptr<const rod::ShapeModel>& shape, const dynamics::BodyInertia& body, double gravity,
-          const Vector3d& turn)
+  UnitMassOnFork(const std::shared_ptr<const rod::ShapeModel>& shape, const dynamics::BodyInertia& body, double gravity,
+                 const Vector3d& turn)
       : held_(shape, {1.0, body.inertia_O / body.mass, body.X_OE}, gravity),
         q_(rod::StrainVector::Zero(shape->size())) {
     held_.set_dofs({true, true, true}, 0.0, 1.0, {q_, q_});
     X_WH_.linear() = math::exp_so3(turn);
   }
 
-  /// Goes to the equilibrium with these springs, from the last one on.
+  /// Finds the equilibrium for these springs, starting from the last one.
   void settle(const rod::PerDof& k) {
     held_.set_springs(k, {1.0, 1.0, 1.0});
     const dynamics::HandleForcing handle = held_.forcing(motion::MotionSegment(X_WH_), 0.0);
@@ -50,8 +50,8 @@ class Weighed {
 const Vector3d hanging(M_PI, 0.0, 0.0);       // z of the handle is down
 const Vector3d level(0.0, -0.5 * M_PI, 0.0);  // x of the handle is up
 
-/// The stiffness with which what `too_large` measures is 1: each of its numbers is the deformation over the one that is
-/// wanted, and falls with its own stiffness.
+/// Finds the stiffness for which all values of `too_large` are 1: each is the ratio of a deformation to its goal, and
+/// decreases with its own stiffness.
 template <typename TooLarge>
 rod::PerDof fit(rod::PerDof k, TooLarge&& too_large) {
   for (int iteration = 0; iteration < 40; ++iteration) {
@@ -74,7 +74,7 @@ rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dyna
                                  const ObjectGoal& goal) {
   const double g = weighing_gravity(gravity), sag = goal.sag * length;
   const auto rod = rod::make_shape_model(shape, length);
-  Weighed down(rod, body, g, hanging), across(rod, body, g, level);
+  UnitMassOnFork down(rod, body, g, hanging), across(rod, body, g, level);
   return scaled(body.mass, fit({g / sag, g / sag, down.axial_inertia() * g / sag}, [&](const rod::PerDof& k) {
                   down.settle(k);
                   across.settle(k);
@@ -110,7 +110,7 @@ rod::PerDof world_stiffness(const rod::ForkSettings& fork, const WorldLoad& load
   const Matrix3d inertia = load.lever * load.lever * Matrix3d::Identity();
   dynamics::BodyInertia centred{1.0, inertia, RigidTransform::Identity()}, off_centre = centred;
   off_centre.X_OE.translation().y() = -load.lever;
-  Weighed down(rod, centred, g, hanging), across(rod, centred, g, level), twisted(rod, off_centre, g, level);
+  UnitMassOnFork down(rod, centred, g, hanging), across(rod, centred, g, level), twisted(rod, off_centre, g, level);
   const rod::PerDof first{g / (goal.stretch * L), g / (goal.bend * L), g * load.lever / goal.twist};
   return scaled(load.mass, fit(first, [&](const rod::PerDof& k) {
                   down.settle(k);

@@ -91,8 +91,8 @@ RigidTransform ForkBody::proxy_response(double h, const Wrench& contact_W) const
 }
 
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
-  const RigidTransform returned = state_.proxy.returned(std::exp(-h / return_time));
-  return yields_everywhere() || is_zero(contact_W) ? returned : proxy_response(h, contact_W) * returned;
+  const RigidTransform reduced_to = state_.proxy.reduced_to(std::exp(-h / return_time));
+  return yields_everywhere() || is_zero(contact_W) ? reduced_to : proxy_response(h, contact_W) * reduced_to;
 }
 
 bool ForkBody::advance(double h, const Wrench& contact_W) {
@@ -164,7 +164,7 @@ rod::StrainMatrix ForkBody::inverse_mass() const {
 }
 
 bodies::SteppedBody::Response ForkBody::response(double h) const {
-  // A proxy has no mass, and keeps nothing of an impulse.
+  // A proxy has no mass, so an impulse does not change its motion.
   Response a{proxy_compliance(h), Matrix6d::Zero()};
   if (held_.size() > 0) {
     const auto J = jacobian_W();
@@ -203,7 +203,7 @@ Matrix6d ForkBody::mobility() const { return strain_mobility() + rigid_mobility(
 void ForkBody::add_impulse(const Wrench& impulse_W) {
   sleep_ = Sleep();
   if (!yields_everywhere()) {
-    state_.proxy.kick(to_twist(rigid_mobility() * to_vector(impulse_W)), object().X.translation());
+    state_.proxy.add_rate(to_twist(rigid_mobility() * to_vector(impulse_W)), object().X.translation());
   }
   if (held_.size() == 0) return;
   state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * to_vector(impulse_W));
@@ -236,7 +236,7 @@ void ForkBody::take_twist(const Twist& V_WO_W) {
 
 void ForkBody::block(double h) {
   added_ = 0.0;
-  // The seen handle stays where it is, whatever the hand does next, and the strain with it.
+  // The proxy handle and the strain stay constant, whatever the hand does next.
   state_.strain.q_dot.setZero();
   const RigidTransform before = hand_pose();
   state_.t += h;

@@ -10,11 +10,11 @@
 
 namespace spring_workbench::tools {
 
-/// Body held by the fork: strain coordinates, the motion of the hand and, if the coordinates cannot follow a contact, a
-/// proxy handle that stays behind the hand (doc/model.md, "When the coordinates cannot follow").
+/// A body held by the fork: strain coordinates, the motion of the hand and, if the coordinates cannot comply with a
+/// contact, a proxy handle that lags behind the hand (doc/model.md, "When the fork cannot follow").
 class ForkBody : public ToolHold {
  public:
-  /// `X_SH`: the fork's fixed end in the hand's stylus.
+  /// `X_SH`: pose of the fork's fixed end H in the stylus frame S.
   ForkBody(std::size_t index, dynamics::HeldBody held, stepping::StepControl control, double t,
            const RigidTransform& X_SH);
 
@@ -42,12 +42,12 @@ class ForkBody : public ToolHold {
   void set_load(const Wrench& load_W) override;
   void set_hand(const motion::MotionSegment& hand, double t) override;
   bool sleeps(double h, bool may_fall_asleep) override;
-  void let_pass(double h) override { state_.t += h; }
+  void advance_at_rest(double h) override { state_.t += h; }
 
   Wrench spring_pull() const override;
   void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
   RigidTransform slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) override;
-  /// Sets strain rates so that the object's twist comes as near as it can to this one.
+  /// Sets the strain rates such that the object's twist is as close to this one as possible.
   void take_twist(const Twist& V_WO_W) override;
   void set_springs(const rod::ForkSettings& fork) override { held_.set_springs(fork); }
   rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const override;
@@ -59,23 +59,23 @@ class ForkBody : public ToolHold {
   double elastic_energy() const override;
 
   dynamics::HandleForcing handle() const;  ///< the proxy handle at present
-  RigidTransform hand_pose() const;        ///< the handle as the hand has it
-  /// Acceleration of the object at present.
+  RigidTransform hand_pose() const;        ///< the handle in the hand
+  /// The object's motion at present, with acceleration.
   motion::MotionState object_with_acceleration() const;
 
-  /// Energy [J] that integration has added since the grasp: what the object and the fork have gained beyond the work of
-  /// hand, gravity, contact and damping. That work is a four-point quadrature over each step, so the figure means
-  /// something where the step resolves the motion (ω·dt below about 1). While a DOF returns to zero strain, nothing is
-  /// added.
+  /// Energy [J] added by integration errors since the grasp: what the object and the fork have gained beyond the work
+  /// of hand, gravity, contact and damping. That work is computed by four-point quadrature over each step, so the
+  /// result is meaningful if the step resolves the motion (ω·dt below about 1). Nothing is added while a DOF returns to
+  /// zero strain.
   double energy_added() const override { return state_.energy_added; }
 
-  /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
+  /// Fills in the state of the fork. `massless`: whether the object has no mass, so that forces are meaningless.
   void describe(bool massless, ToolState& state) const override;
 
   stepping::StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
   void exchange(math::StateArchive& state) override;
 
- protected:  // of tools that are another spring for the same body
+ protected:  // for tools that replace the rod by another spring
   dynamics::HeldBody& held() { return held_; }
   const dynamics::HeldBody& held() const { return held_; }
   double time() const { return state_.t; }
@@ -84,15 +84,15 @@ class ForkBody : public ToolHold {
   void set_strain(const dynamics::StrainState& strain) { state_.strain = strain; }
 
  private:
-  /// What a trial of a step changes of the motion. Beyond it a trial leaves the integrator's history, the equations'
-  /// versions and load, and estimates.
+  /// The part of the state that a trial step changes and that has to be restored. A trial also changes the integrator's
+  /// history, the versions and load of the equations, and estimates.
   struct State {
     double t = 0.0;
     dynamics::StrainState strain;
     motion::Proxy proxy;
     double energy_added = 0.0;  ///< [J]
     stepping::StepControl::Memory stepping;
-    std::optional<Wrench> pull_W;  ///< on the object at its centre, where it was shared last
+    std::optional<Wrench> pull_W;  ///< wrench on the object at its centre, if it was shared in the last step
 
     void exchange(math::StateArchive& state) { state(t, strain, proxy, energy_added, stepping, pull_W); }
   };
@@ -104,23 +104,24 @@ class ForkBody : public ToolHold {
   bool yields_everywhere() const {
     return held_.size() == rod::max_strain_coordinates && load_response_.stops().cols() == 0;
   }
-  /// The parts of mobility() in the directions in which the strain can move the object, and in the other ones.
+  /// The two parts of mobility(): in the directions in which the strain can move the object, and in the others.
   Matrix6d strain_mobility() const;
   Matrix6d rigid_mobility() const;
-  /// Compliance of the proxy to a wrench at the centre of mass over a step, in the directions that the coordinates
-  /// cannot follow: that of a spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
+  /// Compliance of the proxy to a wrench at the centre of mass over a step, in the directions in which the coordinates
+  /// cannot yield: that of a spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
   Matrix6d proxy_compliance(double h) const;
   /// Displacement of the proxy under a wrench over a step: a rotation about the object's centre of mass and a
   /// translation.
   RigidTransform proxy_response(double h, const Wrench& contact_W) const;
-  /// The offset of the proxy at the end of a step under a wrench.
+  /// Offset of the proxy at the end of a step under a wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
   rod::StrainMatrix inverse_mass() const;
-  /// Wrench of the rod on the object at its centre, world axes: the rate of its momentum less gravity and contact.
+  /// Wrench of the rod on the object at its centre, world axes: rate of change of its momentum minus gravity and
+  /// contact.
   Wrench rod_load(const motion::MotionState& object) const;
   Wrench pull() const { return state_.pull_W ? *state_.pull_W : rod_load(object_with_acceleration()); }
-  /// Returns the strain with which the springs exert `pull_W` on the object in the attitude `R_WO`; the present one if
-  /// none is found.
+  /// Returns the strain at which the springs exert `pull_W` on the object with orientation `R_WO`; the present strain
+  /// if there is none.
   rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates>;
   Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
@@ -128,12 +129,12 @@ class ForkBody : public ToolHold {
 
   std::size_t index_;
   dynamics::HeldBody held_;
-  ForkCoupling coupling_;  ///< where another tool leads
+  ForkCoupling coupling_;  ///< used while another tool leads
   stepping::StepControl control_;
   RigidTransform X_SH_;         ///< constant until a regrasp
-  motion::MotionSegment hand_;  ///< of the handle as the hand has it
+  motion::MotionSegment hand_;  ///< motion of the handle in the hand
   State state_;
-  /// The object as object() found it last, of this hand, and where that was.
+  /// Cache of the last result of object(), with the state for which it is valid.
   struct Known {
     double t;
     long version;  ///< of the equations
@@ -143,12 +144,12 @@ class ForkBody : public ToolHold {
   };
   mutable std::optional<Known> known_;
   stepping::LoadResponse load_response_;
-  double added_ = 0.0;  ///< energy by the last advance(), which may turn out to have been a trial [J]
+  double added_ = 0.0;  ///< energy added by the last advance(), which may turn out to be a trial [J]
   stepping::StepEstimates trial_,
-      estimates_;  ///< the same of what steps say: of that advance(); of those that were none
+      estimates_;  ///< estimates: of the last advance(), and the total of accepted ones
   /// Conditions under which an object at rest stays at rest.
   struct Sleep {
-    long version = -1;  ///< of the equations; −1: awake
+    long version = -1;  ///< version of the equations; −1: awake
     RigidTransform X_WH = RigidTransform::Identity();
     void exchange(math::StateArchive& state) { state(version, X_WH); }
   };

@@ -13,7 +13,7 @@ ForkCoupling::ForkCoupling(const dynamics::HeldBody& held, double since)
   if (held.shape().size() == n) {
     shape_ = held.shared_shape();
     in_shape_ = {0, 1, 2, 3, 4, 5};
-  } else {  // a constant curvature is a linear one without its second terms
+  } else {  // a constant curvature is a linear one with zero second terms
     shape_ = rod::make_shape_model(rod::ShapeKind::linear, held.shape().length());
     in_shape_ = {0, 2, 4, 5, -1, -1};
   }
@@ -53,7 +53,7 @@ void ForkCoupling::begin_step() const {
 template <typename S>
 struct ForkCoupling::Tip {
   rod::TipFit<S> fit;
-  math::Three<S> r_OE;  ///< axes of the handle
+  math::Three<S> r_OE;  ///< in handle axes
 };
 
 template <typename S>
@@ -113,7 +113,7 @@ void ForkCoupling::pull(const math::Pack& t, const dynamics::RelativeMotion<math
 
 dynamics::Coupling::Springs ForkCoupling::springs(double t, const dynamics::RelativeMotion<double>& A_O) const {
   Tip<double> at = tip(A_O, start_);
-  // Columns: the wrench at the object of each coordinate's unit force.
+  // Columns: wrench on the object for a unit force of each coordinate.
   Matrix6d to_object;
   for (int i = 0; i < n; ++i) {
     double unit[n] = {};
@@ -130,7 +130,7 @@ dynamics::Coupling::Springs ForkCoupling::springs(double t, const dynamics::Rela
   take_returns(t, at.fit.q, at.fit.q_dot);
   const Vector6d q = Eigen::Map<const Vector6d>(at.fit.q), q_dot = Eigen::Map<const Vector6d>(at.fit.q_dot);
   s.energy = 0.5 * q.dot(K.cwiseProduct(q));
-  // What goes in at the tip and does not stay: with the dampers, what a DOF takes on its way back.
+  // Power that enters at the tip and is not stored: in the dampers, and in DOFs that return to zero strain.
   s.dissipated = rate.dot(K.cwiseProduct(q) + D_ * q_dot) - q_dot.dot(K.cwiseProduct(q));
   return s;
 }

@@ -8,15 +8,15 @@
 
 namespace spring_workbench::tools {
 
-/// A fork on an object that another tool leads: the springs and dampers of its six coordinates between its handle and
-/// the object, by inverse kinematics (doc/model.md, "Several tools on one object"). What is off is as stiff as a body
-/// that swings on it with 10³ rad/s, critically damped.
+/// A fork on an object that another tool leads: the springs and dampers of its six coordinates act between its handle
+/// and the object, by inverse kinematics (doc/model.md, "Several tools on one object"). DOFs that are off are replaced
+/// by critically damped springs on which the object has a natural frequency of 10³ rad/s.
 class ForkCoupling final : public dynamics::Coupling {
  public:
-  /// Keeps a reference to `held`; `since`: when the fork took hold [s].
+  /// Keeps a reference to `held`. `since`: time of the grasp [s].
   ForkCoupling(const dynamics::HeldBody& held, double since);
 
-  /// The strain at present, all coordinates of the held body's shape: what is near to it is looked for.
+  /// Sets the present strain, in all coordinates of the held body's shape, from which the inverse kinematics starts.
   void set_strain(const rod::StrainVector& strain);
   Key key() const override { return {since_, held_.version()}; }
   void pull(const double& t, const dynamics::RelativeMotion<double>& A_O, dynamics::Pull<double>& pull) const override;
@@ -25,10 +25,10 @@ class ForkCoupling final : public dynamics::Coupling {
   Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
   void begin_step() const override;
   void exchange(math::StateArchive& state) { state(since_); }
-  /// What the fork is like for the object's motion as seen from its handle.
+  /// State of the fork for a motion of the object relative to its handle.
   struct Following {
     dynamics::StrainState strain;
-    RigidTransform X_HP;  ///< the handle from which it holds the object, P; where it reaches it, H
+    RigidTransform X_HP;  ///< proxy handle P from which it holds the object; equal to H if the fork reaches the object
   };
   Following follow(const dynamics::RelativeMotion<double>& A_O) const;
 
@@ -42,7 +42,7 @@ class ForkCoupling final : public dynamics::Coupling {
   Tip<S> tip(const dynamics::RelativeMotion<S>& A_O, const Coordinates<S>& start) const;
   template <typename S>
   void pull_of(const S& t, const dynamics::RelativeMotion<S>& A_O, Coordinates<S>& warm, dynamics::Pull<S>& pull) const;
-  /// Strain and rate without the motion on which a DOF that was switched off goes back to none.
+  /// Strain and rate without the return motion of a DOF that was switched off.
   template <typename S>
   void take_returns(const S& t, S* q, S* q_dot) const;
   void stiffen();
@@ -50,14 +50,14 @@ class ForkCoupling final : public dynamics::Coupling {
   const dynamics::HeldBody& held_;
   double since_;
   std::shared_ptr<const rod::ShapeModel> shape_;  ///< of six coordinates
-  std::array<int, n> in_shape_{};                 ///< where the held body's coordinates are among the six
+  std::array<int, n> in_shape_{};                 ///< indices of the held body's coordinates among the six
   math::ThreeByThree<double> R_OE_;
   math::Three<double> p_OE_;
-  long version_ = -1;  ///< of the held body, that the next two are of
+  long version_ = -1;  ///< version of the held body for which the next two are valid
   Coordinates<double> K_{};
   Eigen::Matrix<double, n, n> D_;
   Coordinates<double> start_{};
-  mutable Coordinates<math::Pack> warm_{};  ///< of the last evaluation in this step, where the next one starts
+  mutable Coordinates<math::Pack> warm_{};  ///< warm start: solution of the last evaluation in this step
 };
 
 }  // namespace spring_workbench::tools

@@ -16,9 +16,9 @@ RigidTransform normalised(const RigidTransform& X) { return make_transform(Quate
 Wrench ForkBody::spring_pull() const {
   Wrench springs = pull();
   if (held_.size() == 0) return springs;
-  // Of all wrenches that the dampers' generalised force may be the smallest: with six coordinates there is but one.
+  // The smallest of all wrenches equivalent to the dampers' generalised force; with six coordinates it is unique.
   const rod::StrainVector dampers = held_.damping() * state_.strain.q_dot;
-  Matrix6d onto_coordinates = Matrix6d::Zero();  // a fixed square: Eigen compiles it much faster
+  Matrix6d onto_coordinates = Matrix6d::Zero();  // fixed size, because Eigen compiles that much faster
   onto_coordinates.topRows(held_.size()) = jacobian_W().transpose();
   Vector6d generalised = Vector6d::Zero();
   generalised.head(held_.size()) = -dampers;
@@ -36,7 +36,7 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
     const Vector6d load = to_vector(Wrench{R_HO * force_O, R_HO * moment_O});
     rod::StrainVector f = -(held_.object_jacobian(state_.t, q).transpose() * load) - held_.elastic_force(state_.t, q);
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      if (!(K[i] > 0.0)) f[i] = present[i] - q[i];  // no spring there that could do anything
+      if (!(K[i] > 0.0)) f[i] = present[i] - q[i];  // no spring in this coordinate
     }
     return f;
   };

@@ -20,7 +20,7 @@ void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionStat
   state_.t = t;
   const bool rigid = held_.size() < rod::max_strain_coordinates;
   state_.proxy = rigid ? leader.proxy() : motion::Proxy();
-  if (held_.size() == 0) {  // so is the leader: nothing is felt of this one, and its proxy goes where the object is
+  if (held_.size() == 0) {  // the leader is rigid, too: this one exerts no force, and its proxy follows the object
     state_.pull_W = Wrench();
     const RigidTransform by = object.X * held_.object(handle(), held_.zero_state()).X.inverse();
     state_.proxy.place(by * state_.proxy.offset(), state_.proxy.rate());

@@ -22,7 +22,7 @@ rod::ForkDofs HoldMaker::possible_dofs(const Grasp& grasp, const GraspedBody& ob
 dynamics::BodyInertia HoldMaker::inertia(const Grasp& grasp, const GraspedBody& object) const {
   const scene::MassProperties& of_body = object.body.mass_properties;
   if (object.massless()) {
-    return {1.0, Matrix3d::Identity(), grasp.X_OE};  // of no effect: nothing bends a fork that carries nothing
+    return {1.0, Matrix3d::Identity(), grasp.X_OE};  // no effect: a fork that carries nothing does not bend
   }
   dynamics::BodyInertia inertia{of_body.mass, of_body.inertia_O, grasp.X_OE};
   if (dynamics_.inertia == dynamics::Inertia::point_mass) {
@@ -34,7 +34,7 @@ dynamics::BodyInertia HoldMaker::inertia(const Grasp& grasp, const GraspedBody& 
 }
 
 std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const GraspedBody& object, double now) const {
-  // A rigid tool may be as short as can be: what its object still moves must not depend on a length.
+  // Rigid tools are as short as possible, so that the motion of their object does not depend on a length.
   const auto shape = grasp.tool == Tool::spring_fork
                          ? rod::make_shape_model(fork_.shape, grasp.length, fork_.slope_stiffness)
                          : rod::make_shape_model(rod::ShapeKind::bushing, grasp.length);
@@ -50,7 +50,7 @@ std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const Grasped
 
 std::unique_ptr<ToolHold> HoldMaker::make(const Grasp& grasp, const GraspedBody& object, double now) const {
   if (grasp.tool != Tool::spring || object.massless()) return make_fork(grasp, object, now);
-  const double rest_length = std::max((object.X_WO.translation() - grasp.X_WS.translation()).norm(), least_rest_length);
+  const double rest_length = std::max((object.X_WO.translation() - grasp.X_WS.translation()).norm(), min_rest_length);
   return std::make_unique<SpringBody>(object.index, object.body, gravity_, object.X_WO,
                                       ForkBody::make_step_control(dynamics_), now, rest_length, fork_);
 }
@@ -69,7 +69,7 @@ std::unique_ptr<bodies::SteppedBody> HoldMaker::make_pulled(const Grasp& grasp, 
   const dynamics::BodyInertia of_object = inertia(grasp, object);
   body.mass_properties = {of_object.mass, of_object.inertia_O};
   Vector3d lever = object.X_WO.linear() * grasp.X_OE.translation();
-  if (grasp.tool == Tool::spring) lever.setZero();  // which pulls at the centre
+  if (grasp.tool == Tool::spring) lever.setZero();  // this tool pulls at the centre
   const Wrench pull_W{at_tip_W.force, at_tip_W.moment + lever.cross(at_tip_W.force)};
   return std::make_unique<bodies::PulledBody>(bodies::FreeBody(object.index, body, gravity_, object.X_WO, V_WO_W),
                                               pull_W);

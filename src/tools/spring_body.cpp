@@ -66,7 +66,7 @@ dynamics::Coupling::Springs SpringCoupling::springs(double, const dynamics::Rela
   const Span<double> s = span(A_O);
   const Vector3d n = math::vector(s.n);
   const Matrix3d along = n * n.transpose();
-  // Taut, it holds the object across as well.
+  // Under tension it also has a transverse stiffness.
   const double across = std::max(k_ * s.extension / s.length, 0.0);
   Springs springs;
   springs.stiffness.topLeftCorner<3, 3>() = k_ * along + across * (Matrix3d::Identity() - along);
@@ -146,13 +146,13 @@ Wrench SpringBody::spring_pull() const {
 void SpringBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   const Vector3d d = X_WO.translation() - hand_.at(time()).X.translation();
   const double k = spring_.stiffness();
-  if (k > 0.0) spring_.set_rest_length(std::max(d.norm() + pull_W.force.dot(direction(d)) / k, least_rest_length));
+  if (k > 0.0) spring_.set_rest_length(std::max(d.norm() + pull_W.force.dot(direction(d)) / k, min_rest_length));
 }
 
 RigidTransform SpringBody::slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) {
   const Vector3d d = reading().d, force = at_tip_W.force;
   const double present = d.norm() - spring_.rest_length(), k = spring_.stiffness();
-  const double side = std::copysign(1.0, -force.dot(direction(d)));  // −1: it pushes
+  const double side = std::copysign(1.0, -force.dot(direction(d)));  // −1: compression
   const double goal = k > 0.0 ? side * force.norm() / k : present;
   const double length = spring_.rest_length() + goal + std::exp(-h / return_time) * (present - goal);
   RigidTransform X_WS = hand_.at(time()).X;

@@ -7,11 +7,11 @@
 
 namespace spring_workbench::tools {
 
-/// The spring and damper of the tool `spring` between the hand and the centre of mass, without a moment:
-/// F = −(k (r − L) + c ṙ) n, with r n from the hand to the centre.
+/// The spring and damper of the tool `spring` between the hand and the centre of mass. It exerts no moment, and the
+/// force F = −(k (r − L) + c ṙ) n, where r n is the vector from the hand to the centre.
 class SpringCoupling final : public dynamics::Coupling {
  public:
-  /// `rest_length` L [m] > 0; `since`: when the spring took hold [s].
+  /// `rest_length` L [m] > 0; `since`: time of the grasp [s].
   SpringCoupling(double rest_length, double since) : rest_length_(rest_length), since_(since) {}
 
   void set(double stiffness, double damping);
@@ -39,15 +39,15 @@ class SpringCoupling final : public dynamics::Coupling {
   double k_ = 0.0, c_ = 0.0;  ///< [N/m], [N·s/m]
 };
 
-/// A body that nothing holds, to be led about by couplings: six coordinates without springs …
+/// A body that no tool holds and that couplings move: six coordinates without springs …
 dynamics::HeldBody unheld(const scene::Body& body, double gravity);
-/// … seen from a frame at rest, in which an object at `X_WO` has no strain.
+/// … relative to a frame at rest, for which an object at `X_WO` has zero strain.
 motion::MotionSegment frame_at_rest(const RigidTransform& X_WO);
 
-/// The object on the tool `spring` (doc/model.md, "Tools"), which it is free to turn about.
+/// An object held by the tool `spring` (doc/model.md, "Tools"), about which it can turn freely.
 class SpringBody final : public ForkBody {
  public:
-  /// The mass of `body` must be > 0. `rest_length` [m] > 0; stiffness and damping of `stretch`.
+  /// The mass of `body` must be > 0. `rest_length` [m] > 0; uses stiffness and damping of `stretch`.
   SpringBody(std::size_t index, const scene::Body& body, double gravity, const RigidTransform& X_WO,
              stepping::StepControl control, double t, double rest_length, const rod::ForkSettings& fork);
 
@@ -60,7 +60,7 @@ class SpringBody final : public ForkBody {
   void set_hand(const motion::MotionSegment& hand, double t) override;
   bool sleeps(double, bool) override { return false; }
   Wrench spring_pull() const override;
-  /// It can do no more than pull along its line, by another rest length.
+  /// Changes the rest length, since the spring can only pull along its line.
   void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
   RigidTransform slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) override;
   void set_springs(const rod::ForkSettings& fork) override;
@@ -81,7 +81,7 @@ class SpringBody final : public ForkBody {
 
   SpringCoupling spring_;
   motion::MotionSegment rest_, hand_;
-  std::optional<Vector3d> slipped_W_;  ///< what it did to the object in a step in which it slipped [N]
+  std::optional<Vector3d> slipped_W_;  ///< force on the object in a step in which the tool slipped [N]
 };
 
 }  // namespace spring_workbench::tools

@@ -18,7 +18,7 @@
 namespace spring_workbench::validation {
 namespace {
 
-/// Architecture of the system call numbers; 0: a processor for which there is no filter here.
+/// Architecture of the system call numbers; 0 if this processor is not supported.
 std::uint32_t processor() {
 #if defined(__x86_64__)
   return AUDIT_ARCH_X86_64;
@@ -73,17 +73,17 @@ constexpr std::uint32_t refused[] = {
 
 constexpr std::uint32_t writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
 
-/// The kernel's program that judges each call.
+/// The BPF program with which the kernel checks each system call.
 class Filter {
  public:
   Filter() {
     load(offsetof(seccomp_data, arch));
     otherwise_refuse(BPF_JEQ, processor());
     load(offsetof(seccomp_data, nr));
-    refuse(BPF_JGE, 0x40000000);  // numbers of the x32 kind
+    refuse(BPF_JGE, 0x40000000);  // numbers of the x32 ABI
     for (const std::uint32_t number : refused) refuse(BPF_JEQ, number);
 #ifdef SYS_openat2
-    refuse(BPF_JEQ, SYS_openat2);  // its flags lie where a filter cannot look
+    refuse(BPF_JEQ, SYS_openat2);  // its flags are in memory, which a filter cannot read
 #endif
     step(BPF_JMP | BPF_JEQ | BPF_K, SYS_openat, 0, 3);
     load(offsetof(seccomp_data, args[2]));

@@ -2,7 +2,7 @@
 
 namespace spring_workbench::validation {
 
-/// Closes all files of this process but the standard ones and `file`. Throws where they cannot be listed.
+/// Closes all files of this process except the standard streams and `file`. Throws if they cannot be listed.
 void keep_alone(int file);
 
 /// From now on this process opens no socket, writes no file, starts no program and touches no other process: these

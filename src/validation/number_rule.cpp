@@ -9,9 +9,9 @@
 namespace spring_workbench::validation {
 namespace {
 
-/// As few digits as give the value, 12 at most; 1e-6 and 1e9 without zeros.
+/// Formats a value with as few digits as needed, at most 12; 1e-6 and 1e9 without padding zeros.
 std::string number_text(double value) {
-  if (std::isnan(value)) return "nan";  // without a sign
+  if (std::isnan(value)) return "nan";  // never "-nan"
   std::string text;
   for (const int digits : {6, 12}) {
     std::ostringstream out;

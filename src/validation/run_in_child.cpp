@@ -22,7 +22,7 @@
 namespace spring_workbench::validation {
 namespace {
 
-/// What the child says before its result.
+/// Prefix of the child's result: whether it was confined.
 constexpr char confined[] = "+", unconfined[] = "-";
 
 void warn_once_of_unconfined() {
@@ -32,7 +32,7 @@ void warn_once_of_unconfined() {
   });
 }
 
-/// Ends the process by a signal, whatever the caller did with it, when `seconds` of the timer are over.
+/// Kills the process with `signal`, whatever handler the caller installed, after `seconds` of the timer.
 void end_after(double seconds, decltype(ITIMER_REAL) timer, int signal) {
   std::signal(signal, SIG_DFL);
   sigset_t mask;
@@ -45,7 +45,7 @@ void end_after(double seconds, decltype(ITIMER_REAL) timer, int signal) {
   setitimer(timer, &value, nullptr);
 }
 
-/// Lets the address space grow by no more than `more` bytes, and leaves no core file.
+/// Limits the growth of the address space to `more` bytes, and disables core files.
 void limit_memory(std::uint64_t more) {
   const rlimit none{};
   setrlimit(RLIMIT_CORE, &none);
@@ -80,14 +80,14 @@ std::string read_all(int file) {
 }
 
 [[noreturn]] void child(int pipe, const std::function<std::string()>& work, const ChildLimits& limits) {
-  const int nowhere = open("/dev/null", O_RDWR);  // libraries print when they fail
+  const int nowhere = open("/dev/null", O_RDWR);  // libraries print messages on failure
   dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   try {
     keep_alone(pipe);
     end_after(limits.time, ITIMER_PROF, SIGPROF);
-    end_after(10.0 * limits.time, ITIMER_REAL, SIGALRM);  // what waits for ever takes no processor time
+    end_after(10.0 * limits.time, ITIMER_REAL, SIGALRM);  // a blocked child uses no processor time
     limit_memory(limits.memory);
     const char* const is_confined = confine() ? confined : unconfined;
     _exit(write_all(pipe, is_confined) && write_all(pipe, work()) ? 0 : 1);
@@ -102,7 +102,7 @@ double seconds(const timeval& time) {
 
 [[noreturn]] void refuse_without_child(int reason) {
   throw InputError(std::string("child process: cannot be created (") + std::strerror(reason) +
-                   "); files are read in one, so that a bad file does no harm");
+                   "); files are read in a child process, so that a bad file does no harm");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The constants of a module have one home, src/<module>/constants.h, and each says which test notices a change."""
+"""All constants of a module are in src/<module>/constants.h, and each names the test that detects a change."""
 import pathlib
 import re
 import sys
@@ -7,12 +7,12 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-NOT_YET = {"contact", "dynamics", "rod"}  # modules whose constants are not looked at yet; only ever made smaller
-# What a standard, a device or a file says, and the size of a type: not to be tuned, and at home where it is used.
+NOT_YET = {"contact", "dynamics", "rod"}  # modules that are not checked yet; may only shrink
+# Values from a standard, a device or a file format, and sizes of types: not tunable, so they stay where they are used.
 FORMATS = {"fastrak/fastrak_protocol.cpp", "fastrak/fastrak_status.cpp", "fastrak/record_numbers.cpp"}
 FORMATS |= {"simulated_fastrak/fastrak_device.cpp", "motion_files/motion_file.cpp", "fastrak/fastrak_protocol.h"}
 FORMATS |= {"math/pack.h", "scene/scene.h", "rod/shape_model.h"}
-MOST_UNNOTICED = 48  # constants that no test notices; only ever made smaller
+MOST_UNNOTICED = 48  # constants that no test detects; may only decrease
 TYPE = r"(?:unsigned |signed )?(?:double|float|bool|char|short|int|long|unsigned|(?:std::)?u?int\d+_t|(?:std::)?size_t)"
 DEFINITION = re.compile(rf"^(?:inline |static )*const(?:expr)? (?:inline )?{TYPE} (\w+)\s*[={{][^;]*\d", re.MULTILINE)
 ENTRY = re.compile(
@@ -21,7 +21,7 @@ ENTRY = re.compile(
 
 
 def named_test(comment):
-    """What the comment of a constant says: the test that notices, and at which values; None: no test."""
+    """The test that the comment of a constant names, and its values; None if there is none."""
     text = " ".join(line.lstrip("/ ") for line in comment.splitlines())
     match = re.search(r"Test: ([\w.]+\.py::\w+|\w+\.\w+)(?: at ([-+\d.e, ]*\d))?\.", text)
     return match and (match.group(1), re.split(", *", match.group(2)) if match.group(2) else ["*0.5", "*2"])

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The C++ is as clang-format leaves it, and no line of code is longer than 120 columns.
+"""The C++ code is formatted by clang-format, and no line of code is longer than 120 columns.
 
 Status 77, which ctest shows as skipped, if clang-format is missing; the columns are counted before."""
 import pathlib
@@ -25,7 +25,7 @@ def files_in(root):
 
 
 def columns_of(line):
-    """Letters, not bytes; an accent that is written over a letter takes no column."""
+    """Number of columns: characters, not bytes; combining accents do not count."""
     return sum(1 for letter in line if not unicodedata.combining(letter))
 
 

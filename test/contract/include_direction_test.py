@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN = "spring_workbench/"
 NODES = {"manipulation", "tracker_driver", "contact_sound", "register_tracker"}
 ROS_MODULES = NODES | {"ros_common", "machine_link", "services", "markers", "nodes", "rviz_plugin"}
-EXTERNAL = [  # headers, modules that may use them, whether their public headers may as well
+EXTERNAL = [  # headers, modules that may use them, whether their public headers may, too
     (
         re.compile(
             r"^(ros|rosbag|tf2\w*|\w+_msgs|std_srvs|dynamic_reconfigure|pluginlib|rviz"
@@ -68,7 +68,7 @@ def modules_of(cmake_text):
 
 
 def reach(uses, module):
-    """The module and all that it may use, directly or not."""
+    """The module and everything that it may use, directly or indirectly."""
     found, to_do = set(), [module]
     while to_do:
         name = to_do.pop()
@@ -79,7 +79,7 @@ def reach(uses, module):
 
 
 class Layout:
-    """Which module a file is of, and what that may use."""
+    """The module of a file, and what it may use."""
 
     def __init__(self, root):
         cmake = [root / "CMakeLists.txt", *sorted((root / "cmake").glob("*.cmake"))]
@@ -88,7 +88,7 @@ class Layout:
         self.uses = {**{name: uses for name, (_, uses) in modules.items()}, **EXECUTABLES}
 
     def module_of(self, path):
-        """Of a path below src or include/spring_workbench; None if no module claims it."""
+        """Module of a path below src or include/spring_workbench; None if there is none."""
         for parent in path.parents:
             if str(parent) in self.folders:
                 return self.folders[str(parent)]
@@ -150,7 +150,7 @@ def fault_of(header, module, path, private, layout):
 
 
 def picture_faults(text, uses):
-    """What is wrong with the picture of the way of a pose: arrows that no link line has, a second way into a module."""
+    """Faults of the diagram of a pose's path: arrows without a link dependency, a second path into a module."""
     arrows = re.findall(r"^  (\w+) --> (\w+)$", PICTURE.search(text).group(1), re.MULTILINE)
     faults = [f"no arrow from {module}" for module in WAY if module not in dict(arrows)]
     entered = [to for _, to in arrows]

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every number in a document that has a marker is what its table says (benchmark/report/document_numbers.py)."""
+"""Every number in a document that has a marker equals the value in its table (benchmark/report/document_numbers.py)."""
 import importlib.util
 import pathlib
 import subprocess
@@ -40,7 +40,7 @@ class Markers(unittest.TestCase):
     def check(self, text):
         return numbers.checked(text, self.results)
 
-    def test_right_numbers_are_left(self):
+    def test_correct_numbers_are_kept(self):
         for text in (
             "12 µm<!-- max depth [um] of t.csv where kind=stack --> deep",
             "at 9.6 <!-- min depth [um] of t.csv -->",
@@ -53,7 +53,7 @@ class Markers(unittest.TestCase):
         ):
             self.assertEqual(self.check(text), (text, []))
 
-    def test_rows_are_made_told_when_stale_and_refused_where_there_are_none(self):
+    def test_rows_are_made_and_reported_if_stale_or_missing(self):
         text = "a\n<!-- rows kind, n of t.csv where kind=stack -->\n%s<!-- end of rows -->\nb"
         table = "| kind | n |\n| --- | --- |\n| stack | 3 |\n| stack | 3e0 |\n"
         self.assertEqual(self.check(text % table), (text % table, []))
@@ -64,7 +64,7 @@ class Markers(unittest.TestCase):
             same, wrong = self.check(bad % table)
             self.assertEqual((same, len(wrong)), (bad % table, 1))
 
-    def test_sentences_that_compare_are_told_where_they_are_untrue(self):
+    def test_false_comparisons_are_reported(self):
         for text in (
             "all<!-- all n=3 of t.csv where kind=stack --> and<!-- all kind~^(stack|wall)$ of t.csv -->",
             "but<!-- all n~^1 of t.csv where kind~^w, depth [um]=21 --> this",
@@ -86,7 +86,7 @@ class Markers(unittest.TestCase):
             self.assertEqual(len(wrong), 1, wrong)
             self.assertIn(word, wrong[0])
 
-    def test_how_a_table_was_made_is_told_by_its_header(self):
+    def test_the_header_of_a_table_says_how_it_was_made(self):
         for command, word, other in (("report --quick", "quick", "full"), ("report --shard 1/2", "full", "quick")):
             (self.results / "t.csv").write_text(f"# command: {command}\n" + TABLE, encoding="utf-8")
             text = "of the %s<!-- run of t.csv --> run, 3<!-- count kind of t.csv -->"
@@ -99,7 +99,7 @@ class Markers(unittest.TestCase):
         (self.results / "t.csv").write_text(TABLE, encoding="utf-8")
         self.assertEqual(len(self.check("full<!-- run of t.csv -->")[1]), 1)
 
-    def test_stale_numbers_are_told_and_mended(self):
+    def test_stale_numbers_are_reported_and_updated(self):
         text = (
             "1 and 13 µm<!-- max depth [um] of t.csv where kind=stack -->, "
             "2.0e-5<!-- max depth [um] of t.csv times 1e-6 -->"
@@ -110,7 +110,7 @@ class Markers(unittest.TestCase):
         self.assertEqual(mended, "first line\n" + text.replace("13 µm", "12 µm").replace("2.0e-5", "2.1e-5"))
         self.assertEqual(self.check(mended), (mended, []))
 
-    def test_markers_that_say_nothing_are_told(self):
+    def test_markers_without_a_number_are_reported(self):
         for marker, word in (
             ("<!-- the depth [um] of t.csv where kind=stack -->", "not one"),
             ("<!-- max depth [um] of none.csv -->", "no table"),

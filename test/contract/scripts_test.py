@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""shellcheck over every shell script of the repository. Status 77: there is no shellcheck."""
+"""shellcheck over every shell script of the repository. Status 77: shellcheck is missing."""
 import pathlib
 import shutil
 import subprocess

@@ -14,7 +14,7 @@
 namespace spring_workbench::fuzz {
 namespace {
 
-/// Bytes as choices and numbers; zeros when they are used up.
+/// Interprets bytes as choices and numbers; zeros after the end.
 class Choices {
  public:
   explicit Choices(std::string_view bytes) : bytes_(bytes) {}
@@ -22,7 +22,7 @@ class Choices {
   bool over() const { return at_ >= bytes_.size(); }
   unsigned byte() { return over() ? 0U : static_cast<unsigned char>(bytes_[at_++]); }
   bool flag() { return (byte() & 1U) != 0; }
-  /// Any number: those at the rims of what is allowed more often than the others.
+  /// Any number, with a preference for the limits of allowed ranges.
   double number() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr std::array<double, 16> rims{
@@ -39,8 +39,7 @@ class Choices {
     }
     return (choice - 128.0) / 128.0;
   }
-  /// A number of which no more is asked than a hand can do that the input filter lets through; what is not finite stays
-  /// so.
+  /// A number within what a hand can do and the input filter accepts, or not finite.
   double hand_number() {
     const double value = number();
     return std::isfinite(value) ? std::clamp(value, -2.0, 2.0) : value;
@@ -55,7 +54,7 @@ class Choices {
   std::size_t at_ = 0;
 };
 
-/// One call, as the services make it, with numbers as they come.
+/// Makes one call like the services, with arbitrary numbers.
 void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample& hand) {
   simulation::ForkChange fork;
   switch (next.byte() % 11) {
@@ -81,8 +80,7 @@ void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample&
       change.integrator = static_cast<dynamics::IntegratorKind>(next.byte() % 6);
       const double step = next.number();
       const bool to_tolerance = next.flag();
-      // Not to wait for hours: a step that is allowed is no shorter than 2 ms, or 50 ms where it is made of as many as
-      // a tolerance takes, which is 1 cm.
+      // To limit the run time: steps are at least 2 ms, or 50 ms if a tolerance divides them, which is then 1 cm.
       const double shortest = to_tolerance ? 0.05 : 0.002;
       change.step = step > 0.0 ? std::max(step, shortest) : step;
       change.tolerance = to_tolerance ? 0.01 : 0.0;
@@ -121,14 +119,14 @@ void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample&
 
 void calls(std::string_view bytes) {
   static const scene::Scene scene = scene::load_scene(test_support::checkout("scenes/single_box.urdf"));
-  constexpr int most_calls = 60;
+  constexpr int max_calls = 60;
   Choices next(bytes);
   simulation::SimulationSettings settings;
   settings.contact = static_cast<scene::ContactMode>(next.byte() % 3);
   simulation::Simulation simulation(scene, settings);
   run_a_hand(simulation);
   motion::PoseSample hand{simulation.newest_sample(), simulation.fork().X_WH};
-  for (int i = 0; i < most_calls && !next.over(); ++i) {
+  for (int i = 0; i < max_calls && !next.over(); ++i) {
     const RigidTransform before = simulation.objects()[0].X_WO;
     const double energy = simulation.fork().elastic_energy;
     if (!accepted([&] { call(next, simulation, hand); })) {

@@ -1,4 +1,4 @@
-// Files from outside: motions, settings, scenes.
+// External files: motions, settings, scenes.
 #include <cmath>
 #include <set>
 
@@ -72,7 +72,7 @@ void settings(std::string_view bytes) {
   accepted([] {
     simulation::SimulationSettings chosen;
     simulation::apply_settings(config::load_yaml_file(folder().path("settings.yaml")), "settings.yaml", chosen);
-    chosen.dynamics.step = std::max(chosen.dynamics.step, 0.005);  // not to wait for hours
+    chosen.dynamics.step = std::max(chosen.dynamics.step, 0.005);  // to limit the run time
     if (chosen.dynamics.tolerance > 0.0) chosen.dynamics.tolerance = std::max(chosen.dynamics.tolerance, 1e-6);
     simulation::Simulation simulation(scene, chosen);
     run_a_hand(simulation);

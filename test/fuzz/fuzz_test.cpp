@@ -19,7 +19,7 @@ namespace {
 struct Target {
   const char* name;  // of the corpus, too
   void (*run)(std::string_view);
-  int mutations;  // of each seed: as many as take a few seconds
+  int mutations;  // number per seed, for a few seconds of run time
 };
 std::ostream& operator<<(std::ostream& out, const Target& target) { return out << target.name; }
 
@@ -36,7 +36,7 @@ std::vector<std::string> corpus(const std::string& name) {
   return inputs;
 }
 
-/// A target aborts where a law is broken. Here it gets its corpus, and random mutations of it by one seed.
+/// A target aborts if a requirement is violated. It is run on its corpus and on seeded random mutations of it.
 class Fuzz : public testing::TestWithParam<std::tuple<Target, unsigned>> {};
 
 TEST_P(Fuzz, CorpusAndItsMutationsKeepTheLaws) {

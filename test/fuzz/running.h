@@ -8,14 +8,13 @@
 
 namespace spring_workbench::fuzz {
 
-/// Runs `work`. True when it came to its end; false when it refused its input, in one line.
+/// Runs `work`. Returns true if it completed, false if it refused its input in one line.
 bool accepted(const std::function<void()>& work);
 
-/// All that a simulation gives out is finite.
+/// Checks that all outputs of a simulation are finite.
 void check_finite(const simulation::Simulation& simulation);
 
-/// A hand that goes down into the first movable body's place, grasps it and goes away with it, for a quarter of a
-/// second.
+/// Runs a hand for a quarter of a second that moves into the first movable body, grasps it and carries it away.
 void run_a_hand(simulation::Simulation& simulation);
 
 }  // namespace spring_workbench::fuzz

@@ -7,19 +7,21 @@
 #include <string>
 #include <string_view>
 
-/// Each target takes any bytes, does with them what a program does with input from outside, and aborts where a law is
-/// broken: bad input is refused in one line, and nothing else is thrown; what is accepted is finite, and stays so.
+/// Each target takes arbitrary bytes, processes them like external input, and aborts if a requirement is violated:
+/// invalid input must be refused in one line, nothing else may be thrown, and accepted input must lead to finite
+/// results.
 namespace spring_workbench::fuzz {
 
-/// A FASTRAK's line, all at once and in pieces, in the mode that the first two bytes choose.
+/// Bytes of a FASTRAK's line, whole and in parts, in the mode that the first two bytes select.
 void fastrak(std::string_view bytes);
-/// A recorded motion; with `%script` as the first line a script.
+/// A recorded motion or, with the first line `%script`, a script.
 void motion(std::string_view bytes);
-/// A YAML file of settings, for a simulation that then runs.
+/// A YAML file of settings for a simulation, which is then run.
 void settings(std::string_view bytes);
-/// A scene's URDF and, after a line `%yaml`, the file beside it; the scene then runs.
+/// The URDF of a scene and, after a line `%yaml`, the file next to it; the scene is then simulated.
 void scene(std::string_view bytes);
-/// What services, samples and buttons do to a running simulation: a byte chooses the call, those after it the numbers.
+/// Calls of services, samples and buttons on a running simulation: a byte selects the call, the following ones its
+/// numbers.
 void calls(std::string_view bytes);
 
 inline void require(bool law, const std::string& text) {

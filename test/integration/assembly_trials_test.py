@@ -74,7 +74,7 @@ class AssemblyTrials(unittest.TestCase):
                 self.assertTrue(-0.1 < float(last[name]["y"]) < 0.1, name)
 
     def test_the_hand_is_as_it_is_set(self):
-        """A quick, steady hand is done sooner than a slow one; what is set to its default changes nothing."""
+        """A fast, steady hand finishes sooner than a slow one; setting a default value changes nothing."""
         arguments = ["--scene", SOURCE + "/scenes/far_and_heavy.urdf", "--settings", SETTINGS, "--tool", "direct"]
         arguments += ["--trials", "1"]
         usual = run(*arguments).stdout
@@ -87,7 +87,8 @@ class AssemblyTrials(unittest.TestCase):
         self.assertLess(int(given_up["placed"]), 3)
 
     def test_two_hands_are_recorded_and_replayed(self):
-        """A motion file per hand; the two repeat the work: the bar in its slot, the box on the other side."""
+        """One motion file per hand; replayed, the two repeat the assembly: the bar in its slot, the box on the other
+        side."""
         scene = SOURCE + "/scenes/two_handed.urdf"
         with tempfile.TemporaryDirectory() as folder:
             hands = [os.path.join(folder, name) for name in ("hand.tum", "hand_2.tum")]

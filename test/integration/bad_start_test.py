@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Nodes that are started with what they cannot use: one line that names it, and exit status 2."""
+"""Nodes that are started with invalid input: one line that names it, and exit status 2."""
 import math
 import subprocess
 import sys
@@ -25,7 +25,7 @@ def file_with(text, ending):
 
 class BadStart(unittest.TestCase):
     def start(self, node, parameters):
-        """Starts the node with private parameters; its exit status and what it said."""
+        """Starts the node with private parameters; returns its exit status and output."""
         master = rosgraph.Master("/bad_start_test")
         name = "/" + node + "_refused"
         master.setParam(name, parameters)

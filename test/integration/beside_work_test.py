@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What goes on beside the work of the hand: a scene of large meshes is loaded and the hand notices nothing; the loop
-has a real-time priority, or says once why not."""
+"""Work next to the hand's: loading a scene of large meshes does not disturb the hand; the loop has a real-time
+priority, or reports once why not."""
 import contextlib
 import math
 import os
@@ -36,7 +36,7 @@ LINK = """<link name="ball_%d"><inertial><mass value="1"/><inertia ixx="1e-3" iy
 
 
 def write_ball(path, radius):
-    """A binary STL."""
+    """Writes a sphere as a binary STL file."""
 
     def corner(i, j):
         a, b = math.pi * i / RINGS, math.pi * j / RINGS
@@ -64,7 +64,7 @@ def node(before=(), **options):
 
 
 def real_time_priority(pid):
-    """The largest of its threads, as the kernel has it."""
+    """The highest real-time priority of the node's threads, according to the kernel."""
     found = []
     for task in os.listdir("/proc/%d/task" % pid):
         with open("/proc/%d/task/%s/stat" % (pid, task)) as file:
@@ -119,32 +119,32 @@ class BesideWork(unittest.TestCase):
             self.assertGreater(sent, 50)  # it takes a while
             self.assertGreater(pictures, 0.5 * sent)
             self.assertNotIn("rejected: too old", said())
-            self.assertNotIn("rejected: the loop stands", said())
+            self.assertNotIn("rejected: the loop is stalled", said())
             wait_for(lambda: len(self.shown.last.objects) == 4, "the balls")
 
-    def told_priority(self):
+    def reported_priority(self):
         return wait_for(
             lambda: diagnostic_values(self.diagnostics.messages, "physics loop").get("real-time priority"), "the status"
         )
 
-    def test_the_loop_has_the_priority_that_is_told(self):
+    def test_the_loop_has_the_reported_priority(self):
         self.give("realtime_priority", PRIORITY)
         with node() as process:
-            self.assertIn(self.told_priority(), ("0", str(PRIORITY)))  # 0: a host that permits none
-            self.assertEqual(real_time_priority(process.pid), int(self.told_priority()))
+            self.assertIn(self.reported_priority(), ("0", str(PRIORITY)))  # 0: a host that permits none
+            self.assertEqual(real_time_priority(process.pid), int(self.reported_priority()))
 
-    def test_without_being_asked_it_has_none(self):
+    def test_it_has_none_by_default(self):
         with node() as process:
-            self.assertEqual(self.told_priority(), "0")
+            self.assertEqual(self.reported_priority(), "0")
             self.assertEqual(real_time_priority(process.pid), 0)
 
-    def test_what_is_not_permitted_is_told_once(self):
+    def test_a_missing_permission_is_reported_once(self):
         before = ["setpriv", "--bounding-set=-sys_nice", "--inh-caps=-sys_nice"] if os.geteuid() == 0 else []
         self.give("realtime_priority", PRIORITY)
         forbid = lambda: resource.setrlimit(resource.RLIMIT_RTPRIO, (0, 0))
         with tempfile.TemporaryFile("w+") as log:
             with node(before=before, stdout=log, stderr=log, preexec_fn=forbid) as process:
-                self.assertEqual(self.told_priority(), "0")
+                self.assertEqual(self.reported_priority(), "0")
                 self.assertEqual(real_time_priority(process.pid), 0)
                 wait_for(lambda: len(self.shown.messages) > 5, "a node that works")
             log.seek(0)

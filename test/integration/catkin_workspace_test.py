@@ -22,7 +22,7 @@ def run(*command, **options):
 
 
 class CatkinWorkspace(unittest.TestCase):
-    def test_a_stranger_uses_messages_and_library(self):
+    def test_another_package_uses_messages_and_library(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         prefix, workspace = pathlib.Path(folder.name, "prefix"), pathlib.Path(folder.name, "workspace")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The checkpoint in a file: machine and master gone, a full disk, and files that cannot be used. Node and master are
-the test's own."""
+"""The checkpoint in a file: crash of machine and master, a full disk, and unusable files. The test has its own node and
+master."""
 import os
 import resource
 import signal
@@ -31,7 +31,7 @@ class Checkpoint(unittest.TestCase):
         self.addCleanup(self.kill)
 
     def start(self, scene=SCENE, path=None):
-        """A new master and a new node; those that are there are killed."""
+        """Starts a new master and a new node after killing the present ones."""
         self.kill()
         port = self.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
         self.master = subprocess.Popen(["rosmaster", "--core", "-p", port], env=self.environment)
@@ -56,19 +56,19 @@ class Checkpoint(unittest.TestCase):
         self.node = self.master = None
 
     def run_tool(self, *command):
-        """What it prints; None: it failed."""
+        """Returns the output of a program; None if it failed."""
         done = subprocess.run(
             command, env=self.environment, capture_output=True, text=True, timeout=DEADLINE, check=False
         )
         return done.stdout if done.returncode == 0 else None
 
     def echo(self, topic):
-        """The next message; None: there is none."""
+        """Returns the next message; None if there is none."""
         text = self.run_tool("rostopic", "echo", "-n", "1", topic)
         return next(yaml.safe_load_all(text)) if text else None
 
     def place(self):
-        """Where the first object is [m]."""
+        """Position of the first object [m]."""
         message = self.echo("/manipulation/objects")
         if not message:
             return None
@@ -94,7 +94,7 @@ class Checkpoint(unittest.TestCase):
         return wait_for(lambda: self.content() != old and self.content(), "a new checkpoint")
 
     def moved_and_kept(self, x=0.123456789):
-        """A box that is elsewhere, and a file that says so."""
+        """Moves the box and waits until the file has its position."""
         self.start()
         before = self.new_content("")
         self.move(x)
@@ -106,7 +106,7 @@ class Checkpoint(unittest.TestCase):
         self.start()
         self.assertEqual(self.place(), place)
         self.assertEqual(len(self.told("resuming from the state of the node that was killed (checkpoint_file)")), 1)
-        self.node.send_signal(signal.SIGINT)  # in order: the next one begins anew
+        self.node.send_signal(signal.SIGINT)  # an orderly exit: the next one starts from scratch
         self.node.wait(DEADLINE)
         self.assertFalse(os.path.exists(self.path))
 
@@ -131,14 +131,14 @@ class Checkpoint(unittest.TestCase):
         self.assertEqual(self.place(), place)
 
     def test_of_a_file_that_cannot_be_used_nothing_is(self):
-        """It is told in one line and set aside, and the node keeps its state in a new file."""
+        """It is reported in one line and set aside, and the node stores its state in a new file."""
         self.moved_and_kept()
         self.kill()
         whole = self.content()
         for spoilt, scene, words in [
             (whole[: len(whole) // 2], SCENE, "the checkpoint is ignored: checkpoint_file: "),
             (whole.replace("000", "001"), SCENE, "damaged: they do not match the hash"),
-            (whole, OTHER_SCENE, "given_scene: must be that of this start, %s, got %s" % (OTHER_SCENE, SCENE)),
+            (whole, OTHER_SCENE, "given_scene: must be the scene of this start, %s, got %s" % (OTHER_SCENE, SCENE)),
         ]:
             with self.subTest(words=words):
                 with open(self.path, "w", encoding="ascii") as file:
@@ -156,7 +156,7 @@ class Checkpoint(unittest.TestCase):
                 os.remove(self.path)
 
     def test_what_is_not_ours_is_left_alone(self):
-        """A FIFO, a link, a folder, another file: told once, and the node works without."""
+        """A FIFO, a link, a folder, a foreign file: reported once, and the node works without a checkpoint file."""
         folder = os.path.dirname(self.path)
         os.mkfifo(os.path.join(folder, "fifo"))
         os.symlink("elsewhere", os.path.join(folder, "link"))

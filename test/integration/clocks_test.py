@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""The clocks of tracker_driver and manipulation are set, together and alone, and the processes stand still, while an
-object is held: it stays where it is, and the hand is followed again within half a second. Then a second node sends the
-same stylus, and the tracker turns out to be elsewhere. STANDSTILL: how long the processes stand [s]."""
+"""The clocks of tracker_driver and manipulation are set, together and separately, and the processes are stopped, while
+an object is held: it does not move, and the hand is followed again within half a second. Then a second node sends the
+same stylus, and the tracker's frame is moved. STANDSTILL: how long the processes are stopped [s]."""
 import math
 import os
 import signal
@@ -34,7 +34,7 @@ def find(name):
 
 
 class Shifted:
-    """A node with a clock of its own."""
+    """A node with its own clock."""
 
     def __init__(self, folder, node, *arguments):
         self.path = os.path.join(folder, node)
@@ -66,7 +66,7 @@ class Clocks(unittest.TestCase):
         cls.addClassCleanup(cls.driver.end)
         cls.node = Shifted(folder.name, "manipulation", "_scene:=" + SCENE)
         cls.addClassCleanup(cls.node.end)
-        cls.came = []  # when samples of the stylus came, by a clock that nobody sets
+        cls.came = []  # arrival times of stylus samples, by a clock that is never set
         cls.tf = rospy.Subscriber("/tf", TFMessage, cls.on_transforms, queue_size=1000)
         cls.objects = Listener("manipulation/objects", ObjectStates)
         cls.diagnostics = diagnostics_listener()
@@ -89,7 +89,7 @@ class Clocks(unittest.TestCase):
         return float(diagnostic_values(self.diagnostics.messages, "tracker input").get(name, 0.0))
 
     def newest(self):
-        """The next state of the box that is sent."""
+        """The next published state of the box."""
         seen = len(self.objects.messages)
         wait_for(lambda: len(self.objects.messages) > seen, "a state")
         return self.objects.last.objects[0]

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""contact_sound as a user runs it: contacts in, a WAV file or the sound device out."""
+"""contact_sound as run by a user: contacts in, a WAV file or the sound device out."""
 import array
 import os
 import signal
@@ -39,7 +39,7 @@ def contact(phase, impulse=0.0, slip_speed=0.0):
 
 
 def loudest(part):
-    """Largest sample so far of a file that grows."""
+    """Largest sample so far in a file that is still being written."""
     with open(part, "rb") as file:
         recorded = file.read()[44:]  # behind the header
     return max(map(abs, array.array("h", recorded[: len(recorded) // 2 * 2])), default=0)
@@ -55,7 +55,7 @@ class ContactSound(unittest.TestCase):
             rospy.delete_param("contact_sound")
 
     def record(self, player, seconds):
-        """Until so much more sound is in the file, which has another name while it grows."""
+        """Waits until the file, which has a temporary name while it is written, has grown by this much sound."""
         wait_for(lambda: os.path.exists(player.part), "the file")
         enough = os.path.getsize(player.part) + 2 * 44100 * seconds
         wait_for(lambda: os.path.getsize(player.part) >= enough, "%g s of sound" % seconds)
@@ -114,7 +114,7 @@ class ContactSound(unittest.TestCase):
         self.assertLess(2 * self.pitch_of(0.2, 5.0), self.pitch_of(0.05, 0.08))
 
     def test_no_impact_is_lost_while_the_machine_is_busy(self):
-        """The player stands still while an impact and two thousand more messages come: it is heard."""
+        """The player is stopped while an impact and two thousand more messages arrive: the impact is still played."""
         self.publisher.unregister()
         self.publisher = rospy.Publisher("contacts", Contacts, queue_size=None)  # it loses nothing itself
         with tempfile.TemporaryDirectory() as folder:

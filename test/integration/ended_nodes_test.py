@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Nodes that are asked to end while they work end with status 0: no callback runs on in what is destroyed, no exception
-ends them. Several pairs at a time, on a busy machine, each interrupted at a random moment."""
+"""Nodes that are interrupted while they work exit with status 0: no callback runs in destroyed objects, and no
+exception escapes. Several pairs at a time, on a busy machine, each interrupted at a random moment."""
 import os
 import random
 import signal

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tracker_driver on a simulated FASTRAK: four stations that slide along x, two of them on heads, and a plug that is
+"""tracker_driver on a simulated FASTRAK: four stations that move along x, two of them on heads, and a plug that is
 pulled after 8 s."""
 import sys
 import unittest

@@ -71,13 +71,13 @@ SERVICES = {
 
 
 def memory_of(pid):
-    """Resident memory [MB]."""
+    """Resident memory of a process [MB]."""
     with open("/proc/%d/statm" % pid) as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
 
 
 class Written(TFMessage):
-    """A message that is made into bytes once, so that many can be sent fast."""
+    """A message that is serialised once, so that many can be sent fast."""
 
     def __init__(self, message):
         super().__init__()
@@ -90,7 +90,7 @@ class Written(TFMessage):
 
 
 class UnreadLog:
-    """A log that is full and that nobody reads: who writes to its `end` waits."""
+    """A full pipe without a reader: a write to its `end` blocks."""
 
     def __init__(self):
         self.begin, end = os.pipe()
@@ -106,7 +106,7 @@ class UnreadLog:
 
 
 class StoppedThread:
-    """Stops one thread of a child process, as a debugger does, until it is let go."""
+    """Stops one thread of a child process, like a debugger, until it is released."""
 
     SEIZE, INTERRUPT, DETACH, ALL = 0x4206, 0x4207, 17, 0x40000000
 
@@ -149,7 +149,7 @@ class Faults(unittest.TestCase):
         return rospy.ServiceProxy("manipulation/" + service, SERVICES[service])(*arguments)
 
     def keep_going(self, seconds=0.3):
-        """The hand rests while simulated time goes on, until the node has said something new."""
+        """Lets simulated time advance with the hand at rest until the node has sent something new."""
         seen = len(self.objects.messages), len(self.fork.messages)
         end = time.monotonic() + DEADLINE
         while not (len(self.objects.messages) > seen[0] and len(self.fork.messages) > seen[1]):
@@ -179,11 +179,11 @@ class Faults(unittest.TestCase):
         self.assertFalse(self.box().held)
 
     def log_errors_only(self):
-        """Hundreds of refused calls are not to hide what fails."""
+        """Prevents hundreds of refused calls from hiding a failure."""
         rospy.ServiceProxy("manipulation/set_logger_level", SetLoggerLevel)("ros.spring_workbench", "error")
 
     def wait_for_checkpoint(self):
-        """Waits until the checkpoint is that of now: time stands, and it has been the same for three periods."""
+        """Waits until the checkpoint is up to date: time is stopped, and it has not changed for three periods."""
         last, since = None, time.monotonic()
 
         def settled():
@@ -233,7 +233,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(fork.integrator, "rosenbrock")
 
     def test_of_a_checkpoint_that_cannot_be_used_nothing_is(self):
-        """A text that is cut short, numbers that are not those of the hash, a scene that it is not of."""
+        """A truncated text, numbers that do not match the hash, the wrong scene."""
         for what, spoil in [
             ("length", lambda text: text[: len(text) // 2]),
             ("numbers", lambda text: text.replace("0", "1")),
@@ -271,7 +271,8 @@ class Faults(unittest.TestCase):
         wait_for(lambda: not rospy.has_param("/manipulation/resume"), "the checkpoint to be deleted")
 
     def test_a_subscriber_that_does_not_read_holds_nobody_up(self):
-        """It asks for the widest topics, and never reads: the node goes on for the others, in bounded memory."""
+        """It subscribes to the largest topics and never reads: the node continues for the others, with bounded
+        memory."""
         deaf = []
         for topic, kind, md5 in [
             ("objects", "spring_workbench/ObjectStates", ObjectStates._md5sum),
@@ -316,7 +317,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[seen:]), 0)
 
     def second_node(self, log):
-        """Another node, whose /tf is /second/tf, with its poses; the hand moves it instead of the first."""
+        """Another node with its own poses, remapped from /tf to /second/tf; the hand moves it instead of the first."""
         poses = Listener("/second/manipulation/objects", ObjectStates)
         self.addCleanup(poses.subscriber.unregister)
         command = [NODE, "__ns:=/second", "/tf:=/second/tf", "_scene:=" + BOX]
@@ -334,7 +335,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(node.wait(DEADLINE), 0)
 
     def follow(self, poses):
-        """Moves on until poses of now come from a node."""
+        """Moves until current poses arrive from a node."""
         begin, end = self.hand.now(), time.monotonic() + DEADLINE
         while not (poses.last and poses.last.header.stamp > begin):
             self.assertLess(time.monotonic(), end, "the second node follows no hand")
@@ -347,7 +348,7 @@ class Faults(unittest.TestCase):
         self.hand.tf.publish(TFMessage([unknown]))
 
     def test_a_log_that_nobody_reads_holds_nobody_up(self):
-        """As at a terminal that was stopped by Ctrl-S: the hand is followed, and the node can be ended."""
+        """As with a terminal that was stopped by Ctrl-S: the hand is followed, and the node can be stopped."""
         log = UnreadLog()
         node, poses = self.second_node(log.end)
         for _ in range(3):
@@ -356,7 +357,7 @@ class Faults(unittest.TestCase):
         self.end(node)
 
     def test_messages_lost_at_a_full_queue_are_counted(self):
-        """While the thread of its callbacks stands, what comes is lost but for the newest, and each is counted."""
+        """While its callback thread is stopped, all but the newest messages are dropped, and each is counted."""
         count = 10000
         diagnostics = diagnostics_listener()
         self.addCleanup(diagnostics.subscriber.unregister)
@@ -366,7 +367,7 @@ class Faults(unittest.TestCase):
             return diagnostic_values(diagnostics.messages, "/second/manipulation: messages lost").get("/second/tf")
 
         def heard():
-            """Messages of its /tf, and how many of them were lost, as the node itself says of its newest connection."""
+            """Number of /tf messages and of lost ones, as the node itself reports for its newest connection."""
             return dict(slave_api("/second/manipulation").getBusStats("/faults")[1])["/second/tf"][0][2:4]
 
         self.follow(poses)
@@ -397,7 +398,7 @@ class Faults(unittest.TestCase):
             self.keep_going()
 
     def test_a_flood_of_calls_while_holding(self):
-        """All services that leave the object in the hand where it is, from four clients at once."""
+        """Calls all services that do not move the held object, from four clients at once."""
         self.carry_off()
         calls = [
             ("set_stiffness", (2000.0, 500.0, 5.0, 0)),
@@ -444,8 +445,8 @@ class Faults(unittest.TestCase):
         self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[told:]), 0)
 
     def test_all_services_at_once(self):
-        """Four clients call everything there is in an order of their own: each call is answered, and the node is as
-        good as new."""
+        """Four clients call all services in different orders: each call is answered, and the node is unaffected
+        afterwards."""
         calls = [
             ("select_tool", ("direct", 0)),
             ("select_tool", ("spring_fork", 2)),

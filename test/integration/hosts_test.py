@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Tracker, manipulation and a viewer on a host each: three network namespaces on one switch. The tracker's cable is
-pulled out for two seconds; and, where there is an SSH server, hosts.launch starts the nodes from the bench. Needs
-root, `ip`, and the setup file sourced; where there are no network namespaces it is skipped (exit status 77). Usage:
+"""Tracker, manipulation and a viewer on one host each: three network namespaces on one switch. The tracker's cable is
+unplugged for two seconds; if there is an SSH server, hosts.launch starts the nodes from the bench. Needs root, `ip`,
+and the setup file sourced; without network namespaces it is skipped (exit status 77). Usage:
 hosts_test.py DEVEL_SPACE"""
 import getpass
 import math
@@ -59,7 +59,7 @@ def unplug():
 
 
 def start(host, *command, named=True, environment=(), **options):
-    """Starts a command on a host; named: ROS_IP tells the others where it is."""
+    """Starts a command on a host; `named`: ROS_IP gives the others its address."""
     env = dict(os.environ, ROS_MASTER_URI=MASTER, ROS_HOME=HOME.name, **dict(environment))
     env.pop("ROS_HOSTNAME", None)
     env.pop("ROS_IP", None)
@@ -115,13 +115,13 @@ rospy.spin()
 
 
 class Watch:
-    """On the viewer's host: what rviz subscribes to, from both other hosts."""
+    """Subscribes on the viewer's host, like rviz, to the topics of both other hosts."""
 
     def __init__(self):
         self.process = start(VIEWER, "/usr/bin/python3", "-c", WATCH, stdout=subprocess.PIPE, bufsize=0)
 
     def until(self, condition, what):
-        """The first line of counters that fulfils the condition."""
+        """Returns the first line of counters that satisfies the condition."""
         end = time.monotonic() + DEADLINE
         while select.select([self.process.stdout], [], [], max(0.0, end - time.monotonic()))[0]:
             line = self.process.stdout.readline().decode()
@@ -137,7 +137,7 @@ class Watch:
 
 
 def hand(path):
-    """A hand that moves on a circle for two minutes, 120 samples a second."""
+    """Writes the motion of a hand on a circle: two minutes at 120 Hz."""
     with open(path, "w") as file:
         for k in range(120 * 120):
             t = k / 120.0

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What `cmake --install` puts into a folder runs from there: the demo, with an object in the hand, and replay.
+"""The files that `cmake --install` puts into a folder work there: the demo, with an object in the hand, and replay.
 Usage: installed_test.py CMAKE BUILD_FOLDER"""
 import os
 import socket

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Nodes beside manipulation are killed while it is at work, and come back: it goes on meanwhile, and does not
-notice."""
+"""Nodes other than manipulation are killed while it works, and are restarted: it continues undisturbed."""
 import shutil
 import sys
 import tempfile
@@ -36,7 +35,7 @@ class KilledNodes(unittest.TestCase):
         self.fork.next(lambda m: m.handle.position != first, "another place of the handle")
 
     def kill(self, node):
-        """It comes back, and manipulation is the same process, refuses no step, and its hand moves."""
+        """The node restarts; manipulation is still the same process, rejects no step and follows the hand."""
         self.see_it_move()
         manipulation, seen = pid_of("/manipulation"), len(self.steps.messages)
         kill_and_wait(node)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The launch files and the rviz configuration as shipped, and a bag that is made here and played into the stack."""
+"""The shipped launch files and rviz configuration, and a bag that the test writes and plays into the stack."""
 import glob
 import json
 import math
@@ -67,7 +67,7 @@ class LaunchFiles(unittest.TestCase):
         self.assertLess(max(per_mass), 1.3 * min(per_mass), report)
 
     def test_the_operator_works_with_two_hands(self):
-        """It carries a bar with both, and one hands a box over to the other."""
+        """It carries a bar with both hands, and hands a box over from one to the other."""
         rospy.set_param("/use_sim_time", False)
         tasks, held = Listener("manipulation/task", TaskState), set()
         forks = [Listener("manipulation/fork" + suffix, ForkState) for suffix in ("", "_2")]
@@ -137,11 +137,11 @@ class LaunchFiles(unittest.TestCase):
     def test_a_full_disk_ends_the_recording_alone(self):
         rospy.set_param("/use_sim_time", False)
         steps = Listener("manipulation/steps", StepReport)
-        with tempfile.TemporaryDirectory() as folder, open(os.path.join(folder, "said"), "w+") as said:
+        with tempfile.TemporaryDirectory() as folder, open(os.path.join(folder, "said"), "w+") as log:
             arguments = ["rviz:=false", "record_min_space:=1000000000G", "record:=" + os.path.join(folder, "run")]
-            with Launched("workbench.launch", *arguments, output=said):
-                is_said = lambda: said.seek(0) or "Disabling recording" in said.read()
-                wait_for(is_said, "the recorder to stop")
+            with Launched("workbench.launch", *arguments, output=log):
+                is_logged = lambda: log.seek(0) or "Disabling recording" in log.read()
+                wait_for(is_logged, "the recorder to stop")
                 seen = len(steps.messages)
                 wait_for(lambda: len(steps.messages) > seen + 10, "the simulation to continue")
 
@@ -156,8 +156,8 @@ class LaunchFiles(unittest.TestCase):
 
     def test_every_argument_has_a_doc(self):
         for file in glob.glob(PACKAGE + "/launch/*.launch"):
-            said = subprocess.run(["roslaunch", "--ros-args", file], capture_output=True, text=True, check=True).stdout
-            self.assertNotIn("undocumented", said)
+            log = subprocess.run(["roslaunch", "--ros-args", file], capture_output=True, text=True, check=True).stdout
+            self.assertNotIn("undocumented", log)
 
 
 if __name__ == "__main__":

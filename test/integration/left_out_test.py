@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""What a node has in its memory: the engines of the contact mode that its scene asks for, and no other; what a build
-has left out is refused in one line."""
+"""A node maps only the engines of its scene's contact mode; a mode that was not built is refused in one line."""
 import os
 import subprocess
 import sys
@@ -22,7 +21,7 @@ NEEDED = {"none": [], "stop": ["collision"], "dynamic": ["collision", "rigid_bod
 
 class LeftOut(unittest.TestCase):
     def check(self, contact):
-        """Starts a node with that contact mode, and looks at what it maps, or how it is refused."""
+        """Starts a node with this contact mode; returns the libraries that it maps, or its error message."""
         name = "looked_at_" + contact
         rospy.set_param(name, {"scene": PACKAGE + "/scenes/mini_world.urdf", "contact": contact})
         objects = Listener(name + "/objects", ObjectStates)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The library as others use it: installed into a folder, then each example is built against it from another folder, by
-find_package alone, and run.
+"""The library as used by other projects: installed into a folder; each example is then built against it in another
+folder, with find_package alone, and run.
 Usage: library_test.py CMAKE BUILD_FOLDER CXX MODES, MODES being the contact modes that the build has engines for"""
 import os
 import pathlib
@@ -42,7 +42,7 @@ class Library(unittest.TestCase):
         cls.box = cls.folder / "01_lift_a_box/box.urdf"
 
     def program(self, example):
-        """Configured and built where the example was copied to."""
+        """Configures and builds a copy of the example; returns the program."""
         source, build = self.folder / example, self.folder / "build" / example
         found = [f"-DCMAKE_PREFIX_PATH={self.prefix}", f"-DCMAKE_CXX_COMPILER={CXX}"]
         run(CMAKE, "-S", source, "-B", build, *found, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
@@ -50,7 +50,7 @@ class Library(unittest.TestCase):
         return build / example.split("_", 1)[1]
 
     def mapped(self, *command):
-        """What the dynamic linker maps in a run."""
+        """Returns the libraries that the dynamic linker maps in a run."""
         return run(*command, env={**os.environ, "LD_DEBUG": "files"}).stderr
 
     def test_headers_are_few_and_need_no_other(self):

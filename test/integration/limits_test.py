@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Walks the tables of doc/limits.md: what they say is refused is refused, with the answer that they give, and what was
-there before stays."""
+"""Checks the tables of doc/limits.md: every listed input is refused with the listed message, and changes nothing."""
 import os
 import re
 import shlex
@@ -27,7 +26,7 @@ from tf2_msgs.msg import TFMessage
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 PROGRAMS = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/spring_workbench/"
 SCENE = PACKAGE + "/scenes/single_box.urdf"
-LONGEST = 60.0  # [s] that any refusal may take; there to find what hangs
+LONGEST = 60.0  # [s] limit for any refusal, to detect a hang
 
 
 def tables():
@@ -44,7 +43,7 @@ def tables():
 
 
 def documented(section, pattern):
-    """What stands in a section of doc/reference.md."""
+    """Returns the text of a section of doc/reference.md."""
     with open(PACKAGE + "/doc/reference.md") as file:
         text = re.search(r"(?ms)^## %s\n(.*?)(?=^## |\Z)" % re.escape(section), file.read()).group(1)
     found = re.findall(pattern, text, re.MULTILINE)
@@ -59,7 +58,7 @@ def write(path, text):
 
 
 def merge(fields, changes):
-    """Puts the changes into nested fields."""
+    """Applies the changes to nested fields."""
     for key, value in changes.items():
         if isinstance(value, dict):
             merge(fields[key], value)
@@ -68,7 +67,7 @@ def merge(fields, changes):
 
 
 def one_line(done, program):
-    """What a program said that ended with status 2."""
+    """The error message of a program that exited with status 2."""
     lines = [line for line in done.stderr.splitlines() if line.strip()]
     if done.returncode != 2 or len(lines) != 1:
         return "status %d, %d lines: %s" % (done.returncode, len(lines), done.stderr[-500:])
@@ -117,7 +116,7 @@ class Limits(unittest.TestCase):
         return self.run_program(["replay", "--scene", "scene.urdf", "--motion", motion, "--out", "run.csv", *more])
 
     def walk(self, section, answer_of):
-        """Every row of a section, its last cell being the answer."""
+        """Checks every row of a section; the last cell is the expected message."""
         self.assertGreater(len(self.tables[section]), 0)
         wrong = []  # rosunit does not print what a subTest says
         for row in self.tables[section]:
@@ -174,7 +173,7 @@ class Limits(unittest.TestCase):
         self.walk("Motions", answer)
 
     def transform(self, text, stamp):
-        """The hand over the bench, with what the text changes."""
+        """Transform of the hand above the bench, with the changes in `text`."""
         fields = {
             "header": {"frame_id": "workbench"},
             "child_frame_id": "stylus",

@@ -70,7 +70,7 @@ def ending(hand):
 
 
 class Hands:
-    """Three hands by the wall's clock, each with its own rate: they reach for the box, lift it, shake it, let go."""
+    """Three hands on the wall clock, each with its own rate: they reach for the box, lift it, shake and release it."""
 
     def __init__(self, seed):
         self.random = random.Random(seed)
@@ -209,7 +209,7 @@ def end(process):
 
 
 def record(seed, bag):
-    """A session of one node, which the master knows by its usual name."""
+    """Records a session of one node, which has its usual name."""
     options, viewed = options_of(seed)
     options += ["scene:=" + SCENE, "contact:=dynamic", "styluses:=%d" % MANY]
     node = subprocess.Popen([*MANIPULATION, *("_" + option for option in options)])
@@ -257,7 +257,7 @@ def record_topics():
 
 
 def replay(bag, out):
-    """Nanoseconds and object -> poses and twists, several at a change; the summary."""
+    """Returns (time [ns], object) -> poses and twists (several if there was a change), and the summary."""
     command = [*REPLAY, "--scene", SCENE, "--bag", bag, "--out", out, "--set", "contact=dynamic"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -276,7 +276,7 @@ def numbers_of(state):
 
 
 def compare(messages, rows):
-    """How many states were equal, outside the journal, and with no hand; an AssertionError where one is not equal."""
+    """Numbers of states: equal, outside the journal, and without a hand. Raises AssertionError if one differs."""
     # Several where time was left out, and by rounding of one nanosecond.
     zeros = {m.header.stamp.to_nsec() - round(m.time * 1e9) for m in messages[TOPICS[0]]}
     for change in messages[TOPICS[1]]:
@@ -306,7 +306,7 @@ def compare(messages, rows):
 
 
 def session():
-    """In a process of its own, since it has a master of its own; prints what came of it as JSON."""
+    """Runs in a separate process, because it has its own master; prints the result as JSON."""
     seed = int(sys.argv[2])
     rospy.init_node("session", disable_rostime=True)
     folder = tempfile.mkdtemp(prefix="live_replay_%d_" % seed)  # stays where something differs
@@ -334,7 +334,7 @@ def session():
 
 
 class Session:
-    """One that runs: a master, and this file as a process."""
+    """A running session: a master, and this file as a process."""
 
     def __init__(self, seed):
         with socket.socket() as s:
@@ -353,7 +353,7 @@ class Session:
         )
 
     def end(self):
-        """What came of it; None where it failed."""
+        """Ends the session; returns its result, or None if it failed."""
         said = self.process.communicate()[0].splitlines()
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self.process.pid, signal.SIGKILL)  # nodes that a failure left behind

@@ -22,7 +22,7 @@ class LiveTuning(unittest.TestCase):
         state = self.fork.next()
         self.assertEqual((state.bend_stiffness, state.torsion_on), (500.0, True))
 
-    def test_what_is_set_goes_to_the_simulation(self):
+    def test_new_values_reach_the_simulation(self):
         answer = self.client.update_configuration({"torsion": False, "bend_stiffness": 321.5, "stretch_damping": 0.25})
         self.assertEqual(answer["bend_stiffness"], 321.5)
         state = self.fork.next(lambda m: not m.torsion_on, "torsion to be off")
@@ -30,7 +30,7 @@ class LiveTuning(unittest.TestCase):
         self.client.update_configuration({"torsion": True, "bend_stiffness": 500.0, "stretch_damping": 1.0})
         self.fork.next(lambda m: m.torsion_on, "torsion to be on")
 
-    def test_what_services_change_is_shown(self):
+    def test_changes_by_services_are_shown(self):
         rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness)(0.0, 0.0, 7.25, 0)
         rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True, 0)
         rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("paper", 0.005, 0.0)
@@ -50,12 +50,12 @@ class LiveTuning(unittest.TestCase):
         keep = SetIntegratorRequest.KEEP_TOLERANCE
         self.assertIn("steps of at most 0.01 s, tolerance 1e-05 m", set_integrator("exponential", 0.0, keep).message)
 
-    def test_of_a_good_and_a_bad_value_none_is_taken(self):
+    def test_a_bad_value_rejects_the_good_one_too(self):
         before = self.fork.next()
         self.client.update_configuration({"bend_stiffness": 432.1, "integrator": "crystal_ball"})
         self.assertEqual(self.client.get_configuration(timeout=DEADLINE)["bend_stiffness"], before.bend_stiffness)
 
-    def test_what_the_simulation_refuses_is_put_back(self):
+    def test_refused_values_are_reset(self):
         before = self.fork.next().integrator
         answer = self.client.update_configuration({"integrator": "crystal_ball"})
         self.assertEqual(answer["integrator"], before)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""`manipulation` next to a machine: the twist of the tip out, what a force sensor measures in; scenes/single_box, a
+"""`manipulation` with a machine: publishes the twist of the tip, receives measurements of a force sensor;
+scenes/single_box, a
 hand and a sensor on their own clock."""
 import sys
 import unittest
@@ -20,7 +21,7 @@ ASIDE = (0.2, 0.1, 0.35 + LENGTH)
 
 
 class Machine(Hand):
-    """The hand, and where there is a force, a sensor that measures it with each sample of the hand."""
+    """The hand, and if a force is given, a sensor that measures it at each sample of the hand."""
 
     def __init__(self):
         super().__init__()
@@ -144,7 +145,7 @@ class MachineLink(unittest.TestCase):
             self.hand.sensor.publish(self.hand.measured)
         wait_for(lambda: taken() >= before + 90, "all of them")
 
-    def test_what_cannot_be_used_is_told_and_changes_nothing(self):
+    def test_invalid_wrenches_are_reported_and_change_nothing(self):
         self.hand.measured = wrench_of((0.0, 0.0, WEIGHT / FORCE_SCALE))
         self.hand.run(2.0)
         begin = len(self.log.messages)

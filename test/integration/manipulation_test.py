@@ -84,7 +84,7 @@ class Manipulation(unittest.TestCase):
         cls.hand.wait_for_node()
 
     def setUp(self):
-        """A box at its start, a new hand above it, the fork as it comes."""
+        """Puts the box at its start pose, a new hand above it, and the default fork in the hand."""
         self.call("load_scene", "package://spring_workbench/scenes/single_box.urdf")
         self.call("set_dofs", True, True, True, 0)
         self.call("set_stiffness", 2000.0, 500.0, 5.0, 0)
@@ -104,7 +104,7 @@ class Manipulation(unittest.TestCase):
         return answer
 
     def refused(self, service, *arguments):
-        """The one line with which a call is refused."""
+        """Calls a service that must fail; returns its one-line message."""
         answer = self.services[service](*arguments)
         self.assertFalse(answer.success)
         self.assertTrue(answer.message)
@@ -124,7 +124,7 @@ class Manipulation(unittest.TestCase):
         self.assertTrue(self.box().held)
 
     def lift(self, rotation=DOWN):
-        """Grasps 3 cm beside the centre, lifts, turns, and waits until all is at rest."""
+        """Grasps the box 3 cm from its centre, lifts and turns it, and waits until everything is at rest."""
         self.grasp()
         self.hand.move(LIFTED, DOWN, 1.0)
         if rotation is not DOWN:
@@ -190,7 +190,7 @@ class Manipulation(unittest.TestCase):
             self.assertAlmostEqual(contact.normal.z, 1.0, delta=1e-6)
             self.assertGreaterEqual(contact.impulse, 0.0)
 
-    def test_markers_are_sent_while_somebody_listens(self):
+    def test_markers_are_sent_while_there_is_a_subscriber(self):
         self.hand.run(0.2)
         self.assertIn("markers", self.steps.last.skipped)
         markers = Listener("manipulation/markers", MarkerArray)
@@ -234,7 +234,7 @@ class Manipulation(unittest.TestCase):
         return wait_for(one, "a message")
 
     def switch(self, service, *arguments):
-        """Changes the fork while the clock stands: the same moment just before and just after."""
+        """Changes the fork while the clock is stopped; returns the states just before and just after."""
         before_box, before = self.box(), self.fork.next()
         answer = self.call(service, *arguments)
         after_box, after = self.box(), self.fork.next()
@@ -274,7 +274,7 @@ class Manipulation(unittest.TestCase):
         self.assertEqual(self.fork.next().held_object, "box")
 
     def test_every_integrator_carries_the_box(self):
-        """There and back, so that it does not sleep, in the steps that are set; explicit ones need short steps."""
+        """Moves back and forth, so that the box does not sleep; explicit integrators need short steps."""
         self.lift()
         resting, away = self.box().pose.position, (0.08, 0.05, LIFTED[2])
         for name, step, tolerance in [
@@ -313,7 +313,7 @@ class Manipulation(unittest.TestCase):
         self.assertEqual(self.fork.next().held_object, "")
         self.assertFalse(self.box().held)
 
-    def test_reset_brings_all_back(self):
+    def test_reset_returns_all_objects(self):
         self.lift()
         self.call("reset")
         box, fork = self.box(), self.fork.next()
@@ -401,7 +401,7 @@ class Manipulation(unittest.TestCase):
         self.hand.run(0.2)
         self.assertEqual(self.fork.next().held_object, "box")
 
-    def test_bad_transforms_are_left_out(self):
+    def test_bad_transforms_are_rejected(self):
         self.lift()
         self.diagnostics.next()  # counts all samples of this hand
         count = lambda reason: int(
@@ -426,7 +426,7 @@ class Manipulation(unittest.TestCase):
         now = self.box().pose.position
         self.assertLess(math.dist((resting.x, resting.y, resting.z), (now.x, now.y, now.z)), 1e-6)
 
-    def test_goes_on_at_rest_when_samples_stop(self):
+    def test_continues_at_rest_when_samples_stop(self):
         self.lift()
         stop = self.hand.now()
         self.hand.run(2.0, samples=False)
@@ -435,7 +435,7 @@ class Manipulation(unittest.TestCase):
         self.hand.run(0.5)
         self.assertEqual(self.fork.next().held_object, "box")
 
-    def test_starts_anew_when_time_jumps_back(self):
+    def test_restarts_when_time_jumps_back(self):
         self.lift()
         self.hand.tick -= round(30.0 / Hand.STEP)
         self.hand.pressed = False
@@ -446,8 +446,8 @@ class Manipulation(unittest.TestCase):
         self.lift()
         self.assertGreater(self.box().pose.position.z, 0.2)
 
-    def test_time_that_leaps_ahead_is_left_out(self):
-        """By an hour, which nobody simulates: all stays where it is, at the new time."""
+    def test_time_that_jumps_ahead_is_skipped(self):
+        """A jump by an hour, which is not simulated: everything stays in place, at the new time."""
         self.lift()
         before, told = self.box().pose.position, len(self.steps.messages)
         self.hand.tick += round(3600.0 / Hand.STEP)

@@ -37,7 +37,7 @@ def free_port():
 
 
 class Feeder:
-    """Samples of a hand by the wall's clock, and how long what is shown lags behind them."""
+    """Samples of a hand on the wall clock, and the lag of the display behind them."""
 
     def __init__(self):
         self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
@@ -48,7 +48,7 @@ class Feeder:
         self.lags.append(time.time() - message.header.stamp.to_sec())
 
     def run(self, seconds):
-        """The lags of that time, sorted."""
+        """Runs for that time; returns the lags, sorted."""
         self.lags = []
         begin = time.time()
         while time.time() < begin + seconds:
@@ -255,11 +255,9 @@ def hand():
         elif line.strip() == "service":
             print(service(stretch=600.0).success, flush=True)
         else:
+            key = "time since the master's last reply [s]"
             said = wait_for(
-                lambda: float(
-                    diagnostic_values(diagnostics.messages, "physics loop").get("since the master answered [s]", 0.0)
-                )
-                > 3.0,
+                lambda: float(diagnostic_values(diagnostics.messages, "physics loop").get(key, 0.0)) > 3.0,
                 "the node to say that the master is gone",
             )
             print(said, flush=True)

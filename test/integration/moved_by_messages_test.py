@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The sources of tracker_driver that messages move: a marker as rviz drags it, and a game pad."""
+"""The sources of tracker_driver that are moved by messages: a marker dragged in rviz, and a game pad."""
 import math
 import os
 import subprocess
@@ -62,7 +62,7 @@ class Driver:
 
 class MovedByMessages(unittest.TestCase):
     def check_stream(self, driver):
-        """Whatever comes in: every stamp later than the one before, unit quaternions, steps that a hand can make."""
+        """For any input: increasing stamps, unit quaternions, steps that a hand can make."""
         poses = driver.poses()
         self.assertGreater(len(poses), 30)
         for a, b in zip(poses, poses[1:]):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Bags and motion files through the nodes as a user plays them, with an object held, on a clock that runs ten times as
-fast: limits on speed and wrench, what /diagnostics counts, and a bag looped for a hundred rounds."""
+"""Bags and motion files played through the nodes, with an object held, on a clock that runs ten times as fast: limits
+on speed and wrench, what /diagnostics counts, and a bag looped for a hundred rounds."""
 import glob
 import math
 import os

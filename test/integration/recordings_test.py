@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""A hand by formula, spoilt on purpose, and every recorded motion and bag of a folder, through `replay`, which feeds a
-hand as the nodes do, with an object held: nothing that is no number, and speed, acceleration and wrench within limits,
-through every gap, flip and jump.
+"""A synthetic hand with deliberate defects, and every recorded motion and bag of a folder, through `replay`, which
+filters input like the nodes, with an object held: all values are finite, and speed, acceleration and wrench are within
+limits, through every gap, flip and jump.
 
 Usage: recordings_test.py REPLAY SCENE [FOLDER of the recordings]
 """
@@ -54,7 +54,7 @@ class Recordings(unittest.TestCase):
         return subprocess.run(command, capture_output=True, text=True), out
 
     def check(self, *arguments, may_lose=False):
-        """Runs and holds all rows to the limits; the summary."""
+        """Runs replay and checks all rows against the limits; returns the summary."""
         done, out = self.run_replay(*arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = json.loads(done.stdout.splitlines()[-1])
@@ -112,7 +112,7 @@ class Recordings(unittest.TestCase):
                 self.assertEqual(summary["reacquisitions"], DROPOUTS.get(name, 0))
 
     @recorded
-    def test_a_stylus_that_rests_lets_what_it_holds_sleep(self):
+    def test_the_object_of_a_resting_stylus_sleeps(self):
         """The stylus on eight landmarks lies still in its first 2.2 s, trembling by 0.1 mm; then it pivots about its
         tip and moves on, without a rest."""
         path = RECORDED + "/data/motions/plus_stylus_8landmarks_60s.tum"
@@ -129,7 +129,7 @@ class Recordings(unittest.TestCase):
 
     @recorded
     def test_every_motion_whatever_the_damping(self):
-        """On a fork that takes the box where it is, metres away with some hands: a stiff lever."""
+        """With a fork that holds the box where it is, which with some hands is metres away: a stiff lever."""
         for path in sorted(glob.glob(RECORDED + "/data/motions/*.tum")):
             with open(path) as file:
                 part = [line.split() for line in file if line.strip() and not line.startswith("#")][:600]
@@ -154,7 +154,7 @@ class Recordings(unittest.TestCase):
             file.writelines(" ".join(map(str, words)) + "\n" for words in samples)
         return path
 
-    def test_a_hand_that_is_lost_lets_go(self):
+    def test_a_lost_hand_releases(self):
         hand = hand_by_formula()
         del hand[1500:1700]
         summary = self.check(
@@ -170,7 +170,7 @@ class Recordings(unittest.TestCase):
         self.assertEqual(summary["losses"], 1)
 
     @recorded
-    def test_a_recorded_hand_that_is_lost_lets_go(self):
+    def test_a_recorded_lost_hand_releases(self):
         summary = self.check(
             "--motion",
             RECORDED + "/data/motions/tumvi_room2_gaps_60s.tum",
@@ -198,7 +198,7 @@ class Recordings(unittest.TestCase):
                     self.assertFalse(os.path.exists(out))
 
     def check_spoilt(self, lines):
-        """Lone outliers, flips, jumps to the origin and away, a gap."""
+        """Adds single outliers, sign flips, jumps to the origin and elsewhere, and a gap, and checks the result."""
         for k, words in enumerate(lines):
             if k % 97 == 50:
                 words[1] = str(float(words[1]) + 1.5)
@@ -216,11 +216,11 @@ class Recordings(unittest.TestCase):
         self.assertEqual(summary["dropouts"], 2)
         self.assertGreaterEqual(summary["reacquisitions"], 3)
 
-    def test_every_ugliness_in_one_hand(self):
+    def test_all_input_faults_in_one_hand(self):
         self.check_spoilt(hand_by_formula())
 
     @recorded
-    def test_every_ugliness_in_one_recorded_hand(self):
+    def test_all_input_faults_in_one_recorded_hand(self):
         with open(RECORDED + "/data/motions/vicon_handheld_primesense1_60s.tum") as file:
             lines = [line.split() for line in file if line.strip() and not line.startswith("#")][:3000]
         self.check_spoilt(lines)

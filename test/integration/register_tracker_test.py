@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""register_tracker as a user runs it: touches of known landmarks and turning about the tip, from recorded motions and
-from the running driver; its file in the launch files."""
+"""register_tracker as run by a user: touches of known landmarks and pivoting about the tip, from recorded motions and
+from the running driver; use of its file in the launch files."""
 import os
 import random
 import subprocess
@@ -38,7 +38,7 @@ def rotation(q):
 
 
 def place_of(p_B, offset=OFFSET):
-    """The point in the tracker's frame."""
+    """Returns the point in the tracker's frame."""
     return rotation(offset[3:]).T @ (numpy.array(p_B) - offset[:3])
 
 
@@ -74,8 +74,8 @@ class RegisterTracker(unittest.TestCase):
         )
 
     def motion(self, tips, noise=0.0, tip=TIP):
-        """The stylus that rests with its tip at each place in turn, the button down for a second; it turns all the
-        time."""
+        """Motion of a stylus whose tip rests at each point in turn, with the button pressed for a second; the stylus
+        turns all the time."""
         lines = []
         for i, p in enumerate(tips):
             for k in range(150):
@@ -127,7 +127,7 @@ class RegisterTracker(unittest.TestCase):
             self.assertLess(numpy.linalg.norm(numpy.array(found["tip"]) - TIP), 1e-6)
             self.assertEqual(report.count("residual "), len(PLACES))
 
-    def test_what_makes_no_sense_is_refused(self):
+    def test_meaningless_values_are_refused(self):
         known = self.landmarks(PLACES)
         straight = [place_of(p) for p in PLACES]
         tip = self.file("tip.yaml", "tip: [0.01, -0.02, 0.15]\n")
@@ -146,8 +146,8 @@ class RegisterTracker(unittest.TestCase):
         self.refuse("option", "--no-such-option")
 
     def test_recorded_stylus_on_landmarks(self):
-        """A real hand: where it dwells is a touch, and the landmarks are those touches as another tracker pose sees
-        them."""
+        """A real hand: its pauses are taken as touches, and the landmarks are these touches transformed by another
+        tracker pose."""
         if not os.path.exists(RECORDING):
             self.skipTest("no recordings")
         rows = numpy.loadtxt(RECORDING)

@@ -1,4 +1,4 @@
-// An integrator of a user, under a name of its own.
+// A user-defined integrator, registered under its own name.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using dynamics::IntegratorKind;
 
-/// Does what rk4 does, and counts its steps.
+/// Like rk4, but counts its steps.
 class Counting : public dynamics::Integrator {
  public:
   static inline int steps = 0;

@@ -81,7 +81,7 @@ TEST_F(Replay, ABagOfTwoHandsGivesTheSameBytesAsTheirMotionFiles) {
   EXPECT_GT(both_hold, 50);
 }
 
-/// Whichever numbers they have: the fourth of four has its own rows, and the third, which the bag lacks, has none.
+/// Hands with any numbers: the fourth of four has its own rows, and the third, which is not in the bag, has none.
 TEST_F(Replay, ABagOfManyHandsIsReplayedWithAllOfThem) {
   const std::string numbers[] = {"", "_2", "_4"};
   std::string motions;
@@ -143,7 +143,7 @@ TEST_F(Replay, CompressedBagsAndTheOldTfMessageGiveTheSameBytes) {
     rosbag::View messages(from);
     for (const rosbag::MessageInstance& message : messages) {
       const auto header = boost::make_shared<ros::M_string>(*message.getConnectionHeader());
-      if (message.getTopic() == "/tf") (*header)["type"] = "tf/tfMessage";  // of before tf2: the same bytes
+      if (message.getTopic() == "/tf") (*header)["type"] = "tf/tfMessage";  // the type before tf2, with the same bytes
       to.write(message.getTopic(), message.getTime(), message, header);
     }
   };
@@ -156,7 +156,7 @@ TEST_F(Replay, CompressedBagsAndTheOldTfMessageGiveTheSameBytes) {
   }
 }
 
-/// Bags of other people: lz4, the old tf/tfMessage.
+/// Third-party bags: lz4, the old tf/tfMessage.
 TEST_F(Replay, ReadsBagsFromElsewhere) {
   const std::string bags = test_support::extra_data("data/bags/");
   if (bags.empty()) GTEST_SKIP() << "SPRING_WORKBENCH_TEST_DATA is not given";

@@ -38,7 +38,7 @@ struct Sample {
   bool button;
 };
 
-/// The hand stands over the box, fork down, takes it, lifts it, puts it aside, lets go.
+/// A hand above the box, fork down, that grasps it, lifts it, puts it down beside its start, and releases it.
 inline std::vector<Sample> lifting_hand() {
   std::vector<Sample> samples;
   for (long i = 0; i <= 100; ++i) {

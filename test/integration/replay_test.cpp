@@ -1,4 +1,4 @@
-// `replay` as a user runs it: its arguments, its files, its exit status.
+// `replay` as run by a user: arguments, files, exit status.
 #include <sys/stat.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST_F(Replay, WritesALinePerOutputTimeAndObject) {
   EXPECT_EQ(summary["outputs"].as<int>(), 51);
   EXPECT_EQ(summary["samples"].as<int>(), 101);
   EXPECT_EQ(summary["samples_rejected"].as<int>(), 0);
-  EXPECT_GE(summary["steps"].as<int>(), 50);  // none while nothing moves
+  EXPECT_GE(summary["steps"].as<int>(), 50);  // no steps while nothing moves
   EXPECT_NEAR(summary["simulated_time"].as<double>(), 2.0, 1e-9);
   for (const char* key : {"wall_time", "time_per_step", "position_error", "angle_error", "energy_balance", "contacts",
                           "collision_queries", "steps_rejected", "stiffest_omega_dt"}) {
@@ -88,7 +88,7 @@ TEST_F(Replay, SettingsFileAndCommandLineAreTheSameAndTheLatterWins) {
   expect_same_bytes("a.fork.csv", "b.fork.csv");
 }
 
-TEST_F(Replay, RepeatedStampsAreLeftOutAndCounted) {
+TEST_F(Replay, RepeatedStampsAreRejectedAndCounted) {
   auto samples = lifting_hand();
   samples.insert(samples.begin() + 50, 3, samples[49]);
   samples.push_back(samples[20]);
@@ -186,16 +186,16 @@ TEST_F(Replay, BadFilesAreRefusedNamingTheirLine) {
   }
 }
 
-/// Hands of a folder that hold the box from first to last without anything that is not finite. Under a sanitizer the
-/// first 500 lines of each.
+/// The hands in a folder hold the box to the end with finite results. Under a sanitizer, only the first 500 lines of
+/// each.
 class FoldersOfMotions : public Replay {
  protected:
-  void expect_finite(const std::string& folder, int least_outputs) {
+  void expect_finite(const std::string& folder, int min_outputs) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    constexpr int most_lines = 500;
-    least_outputs = std::min(least_outputs, 100);
+    constexpr int max_lines = 500;
+    min_outputs = std::min(min_outputs, 100);
 #else
-    constexpr int most_lines = std::numeric_limits<int>::max();
+    constexpr int max_lines = std::numeric_limits<int>::max();
 #endif
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() != ".tum") continue;
@@ -203,7 +203,7 @@ class FoldersOfMotions : public Replay {
       std::ifstream file(entry.path());
       std::string motion;
       int lines = 0;
-      for (std::string line; lines < most_lines && std::getline(file, line); ++lines) motion += line + "\n";
+      for (std::string line; lines < max_lines && std::getline(file, line); ++lines) motion += line + "\n";
       folder_.write("recorded.tum", motion);
       const Outcome outcome =
           run("--scene box.urdf --motion recorded.tum --set grasp.object=box --set start.follow=true "
@@ -213,7 +213,7 @@ class FoldersOfMotions : public Replay {
         EXPECT_EQ(text.find("nan"), std::string::npos);
         EXPECT_EQ(text.find("inf"), std::string::npos);
       }
-      EXPECT_GT(summary_of(outcome)["outputs"].as<int>(), least_outputs);
+      EXPECT_GT(summary_of(outcome)["outputs"].as<int>(), min_outputs);
     }
   }
 };

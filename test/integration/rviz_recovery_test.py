@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What rviz shows while nodes come and go, by the pixels of its window: nothing is left of a node that has ended, and
-displays, markers and panel are there again when the node, rviz or the ROS master is started anew, or another scene
-loaded. Needs the setup file sourced; where rviz' plugins or a program for a virtual display are missing it is skipped
+"""What rviz shows while nodes start and exit, from the pixels of its window: nothing remains of a node that has exited,
+and displays, markers and panel reappear when the node, rviz or the ROS master is restarted, or another scene is loaded.
+Needs the setup file sourced; if the rviz plugins or a virtual display are missing, it is skipped
 (exit status 77). Usage: rviz_recovery_test.py DEVEL_SPACE"""
 import contextlib
 import os
@@ -45,7 +45,7 @@ def free_port():
 
 
 class Stack:
-    """A display, a master, and what is started beside them."""
+    """A display, a master, and the processes that were started with them."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -138,21 +138,21 @@ class Recovery(unittest.TestCase):
         self.addCleanup(self.stack.close)
 
     def look(self):
-        """How much is drawn in the view, and how much more black writing the panel has than when it is grey."""
+        """Number of pixels drawn in the view, and of black pixels in the panel beyond those when it is greyed out."""
         pixels = self.stack.pixels()
         drawn = sum(pixels[i] != BACKGROUND for i in self.view)
         left = [pixels[y * SIZE[0] + x] for y in range(40, SIZE[1] - 60) for x in range(0, self.panel_width, 1)]
         return drawn, sum(max(p) < 60 for p in left) - self.grey
 
     def start_rviz(self, kind, shows):
-        """rviz, once it shows what it should."""
+        """Starts rviz; returns once it shows what it should."""
         rviz = self.stack.rviz(kind)
         self.stack.until(lambda: rviz.poll() is not None or shows(), "rviz to show what it should")
         self.assertIsNone(rviz.poll(), "rviz ended")
         return rviz
 
     def open_rviz(self, kind):
-        """rviz without anything in it; where its view is."""
+        """Opens an empty rviz; returns the position of its view."""
 
         def view():
             places = [i for i, p in enumerate(self.stack.pixels()) if p == BACKGROUND]
@@ -179,7 +179,7 @@ class Recovery(unittest.TestCase):
         self.stack.until(lambda: self.look()[0] == 0, what)
 
     def settled(self, look, same):
-        """What is seen, once two looks two seconds apart have seen the same."""
+        """The state of the window, once two observations two seconds apart agree."""
         end, before = time.monotonic() + DEADLINE, None
         while time.monotonic() < end:
             now = look()
@@ -236,13 +236,13 @@ class Recovery(unittest.TestCase):
         self.check("markers")
 
     def say(self, topic, kind, values):
-        """From a node of its own, for long enough."""
+        """Publishes from a separate node for long enough."""
         sender = self.stack.start("rostopic", "pub", "-l", "manipulation/" + topic, "spring_workbench/" + kind, values)
         time.sleep(5.0)
         self.stack.stop(sender)
 
     def test_the_forks_of_all_styluses(self):
-        """Next to each other, each with the number of its stylus; one that is silent is gone."""
+        """They are shown next to each other, each with the number of its stylus; that of a silent stylus disappears."""
         stack = self.stack
         stack.master()
         self.open_rviz("fork")
@@ -300,7 +300,7 @@ class Recovery(unittest.TestCase):
             os.kill(master, signal.SIGCONT)
 
     def open_rviz_with(self, kind):
-        """rviz with something drawn."""
+        """Opens rviz and waits until something is drawn."""
         return self.start_rviz(kind, lambda: sum(p == BACKGROUND for p in self.stack.pixels()) > SIZE[0] * SIZE[1] // 4)
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""rviz with the panel, the fork's display and the marker of the mouse, worked by clicks and drags on a virtual
+"""rviz with the panel, the fork's display and the marker of the mouse, operated by clicks and drags on a virtual
 display."""
 import contextlib
 import os
@@ -33,7 +33,7 @@ def xdotool(*arguments):
 
 
 def config(folder):
-    """The shipped one, looking along +y."""
+    """The shipped configuration, with the view along +y."""
     content = yaml.safe_load(open(PACKAGE + "/rviz/workbench.rviz"))
     manager = content["Visualization Manager"]
     manager["Views"]["Current"].update(
@@ -57,7 +57,7 @@ def window_manager():
 
 
 class Picture:
-    """Where rviz shows the scene in its window, by the colour of its background, and where a point is on it."""
+    """Locates the 3D view in the window by its background colour, and projects points into it."""
 
     def __init__(self):
         width, height = SIZE
@@ -120,17 +120,17 @@ class Rviz(unittest.TestCase):
         return self.fork.last.handle.position
 
     def arrow(self):
-        """The marker's arrow to the right; nothing else is there."""
+        """A point on the marker's right arrow that nothing else covers [px]."""
         x, y = self.picture.pixel(self.hand())
         return x + round(ARROW / self.picture.metres), y
 
     def grab(self):
-        """A place on the marker's ball, beside the arrow that points at us."""
+        """A point on the marker's ball, next to the arrow that points to the viewer [px]."""
         x, y = self.picture.pixel(self.hand())
         return x - 12, y + 8
 
     def drag_to(self, x, z):
-        """The marker's arrows, until the hand is there."""
+        """Drags the marker's arrows until the hand is there."""
         self.picture = Picture()  # the panel may have changed its width
         arrow = ARROW / self.picture.metres  # [pixels]
         for _ in range(8):
@@ -144,7 +144,7 @@ class Rviz(unittest.TestCase):
         self.fail("the hand is at %s, not at x %g, z %g" % (self.hand(), x, z))
 
     def drag(self, grip, way):
-        """From a place beside the handle, by a way; pixels."""
+        """Drags from a point next to the handle, by a displacement [px]."""
         begin = [a + b for a, b in zip(self.picture.pixel(self.hand()), grip)]
         steps = 20
         xdotool("mousemove", round(begin[0]), round(begin[1]), "sleep", 0.4, "mousedown", 1)

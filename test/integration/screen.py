@@ -8,7 +8,7 @@ DEADLINE = 120.0  # [s] of wall time; far more than anything here takes
 
 @contextlib.contextmanager
 def screen(width, height):
-    """The environment of programs on a display of their own, without a graphics card."""
+    """Yields the environment for programs on a separate display without a graphics card."""
     reader, writer = os.pipe()
     server = subprocess.Popen(
         ["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % (width, height), "+extension", "GLX"]
@@ -28,7 +28,7 @@ def screen(width, height):
 
 
 def pixels(environment):
-    """What the whole display shows, three bytes a pixel, row by row."""
+    """The contents of the whole display, three bytes per pixel, row by row."""
     return subprocess.run(
         ["import", "-window", "root", "-depth", "8", "rgb:-"],
         check=True,

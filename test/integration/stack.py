@@ -1,4 +1,4 @@
-"""What the integration tests share: a hand on its own clock, and waiting with a deadline."""
+"""Shared by the integration tests: a hand on its own clock, and waiting with a deadline."""
 import math
 import os
 import signal
@@ -19,7 +19,7 @@ DEADLINE = 120.0  # [s] of wall time; far more than anything here takes
 
 
 def wait_for(condition, what, deadline=DEADLINE):
-    """The condition's value as soon as it is true; an AssertionError after the deadline."""
+    """Returns the condition's value as soon as it is true; raises AssertionError after the deadline."""
     end = time.monotonic() + deadline
     while time.monotonic() < end:
         value = condition()
@@ -53,7 +53,7 @@ def kill_and_wait(node):
 
 
 class Listener:
-    """Keeps all messages of a topic."""
+    """Collects all messages of a topic."""
 
     def __init__(self, topic, kind):
         self.messages = []
@@ -64,7 +64,7 @@ class Listener:
         return self.messages[-1] if self.messages else None
 
     def next(self, condition=lambda message: True, what="a message"):
-        """The first message from now on that fulfils the condition."""
+        """Returns the next message that satisfies the condition."""
         seen = len(self.messages)
         return wait_for(
             lambda: next((m for m in self.messages[seen:] if condition(m)), None),
@@ -73,7 +73,7 @@ class Listener:
 
 
 def services_of_manipulation(kinds):
-    """Proxies of these services (name -> kind) by their names, once the node has them all."""
+    """Waits for these services (name -> type) and returns their proxies by name."""
     for name in kinds:
         rospy.wait_for_service("manipulation/" + name, DEADLINE)
     return {name: rospy.ServiceProxy("manipulation/" + name, kind) for name, kind in kinds.items()}
@@ -153,11 +153,11 @@ class Hand:
         )
 
     def run(self, seconds, samples=True):
-        """Lets the clock run, the stylus at rest."""
+        """Advances the clock with the stylus at rest."""
         self.move(self.position, self.rotation, seconds, samples)
 
     def move(self, position, rotation, seconds, samples=True):
-        """Moves evenly from where it is, the rotation by way of normalised interpolation."""
+        """Moves at constant speed from the present pose, with normalised interpolation of the rotation."""
         steps = max(1, round(seconds / self.STEP))
         from_position, from_rotation = self.position, self.rotation
         for k in range(1, steps + 1):
@@ -177,7 +177,7 @@ class Hand:
             self.wait_until_followed()
 
     def wait_until_followed(self):
-        """The node goes as far as the step before the last sample but one."""
+        """Time that the node reaches: the step before the last sample but one."""
         newest = self.tick // self.SAMPLE * self.SAMPLE
         end = (newest - self.SAMPLE) * self.STEP - self.PERIOD
         now = self.tick * self.STEP  # the clock may have been set back: what is later is from before
@@ -198,7 +198,7 @@ class Hand:
 
 
 class Launched:
-    """roslaunch as a user runs it; ended, with all its nodes at the end of the block. `output`: a file."""
+    """Runs roslaunch; stops it with all its nodes at the end of the block. `output`: a file."""
 
     def __init__(self, *arguments, environment=None, output=None):
         self.output = output
@@ -217,7 +217,8 @@ class Launched:
 
 
 def make_bag(path, speed=1.0):
-    """A hand that goes down into the box of single_box, grasps, lifts, carries it 0.2 m along x and holds it there."""
+    """A hand that moves down into the box of single_box, grasps and lifts it, carries it 0.2 m along x and holds it
+    there."""
     waypoints = [
         (0.0, (0, 0, 0.4)),
         (1.0, (0, 0, 0.22)),

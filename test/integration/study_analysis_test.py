@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The analysis of a study on made-up numbers of known distributions: what is there is found, what is not there is found
-at the nominal rate. Arguments: source folder."""
+"""The analysis of a study on synthetic numbers with known distributions: real effects are found, and false ones at the
+nominal rate. Arguments: source folder."""
 import csv
 import importlib.machinery
 import importlib.util
@@ -31,7 +31,7 @@ def times(random, effect, participants=12):
 
 
 def most(count, rate):
-    """Exceeded by chance once in 10,000."""
+    """Bound that is exceeded by chance once in 10,000 cases."""
     return stats.binom.isf(1e-4, count, rate)
 
 
@@ -142,7 +142,7 @@ class Files(unittest.TestCase):
         self.assertNotIn("weighted", done.stdout)
         self.assertIn("below 0.0029", done.stdout)  # 6 pairs, 2 of 4096 sign changes
 
-    def test_who_lacks_a_condition_is_left_out_by_name(self):
+    def test_participants_without_a_condition_are_excluded_by_name(self):
         files = list(self.study(times(np.random.default_rng(8), 1.0, participants=4)))
         with open(files[4], encoding="utf-8") as file:
             lines = file.readlines()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/study with the simulated operator in place of a person: interrupted, continued, recorded, replayed."""
+"""scripts/study with the simulated operator instead of a person: interrupted, continued, recorded, replayed."""
 import csv
 import glob
 import json
@@ -69,7 +69,7 @@ class Study(unittest.TestCase):
         out, err = process.communicate(timeout=deadline)
         return process.returncode, out, err
 
-    def test_broken_off_and_continued(self):
+    def test_interrupted_and_continued(self):
         study = self.start()
         wait_for(lambda: os.path.exists(self.path("out/participant_002.csv")), "the first trial")
         self.task.next(lambda m: m.grasps == 1 and not m.complete, "a grasp in the second trial")
@@ -96,7 +96,7 @@ class Study(unittest.TestCase):
         self.replay()
 
     def replay(self):
-        """Each bag is the trial: the object comes to its target by the condition's DOFs."""
+        """Replays each bag: as in the trial, the object reaches its target with the condition's DOFs."""
         program = roslib.packages.find_node("spring_workbench", "replay")[0]
         for name, dofs in [("1_bending", {"bend"}), ("2_rigid", set())]:
             bag = self.path(f"out/participant_002/{name}_trial_1.bag")
@@ -122,7 +122,7 @@ class Study(unittest.TestCase):
         self.assertEqual(glob.glob(self.path("out/*.csv")), [])
 
     def test_from_start_to_analysis_by_one_command(self):
-        """Two simulated participants, in opposite orders, and what their records say."""
+        """Two simulated participants, in opposite orders, and their records."""
         status, out, err = self.end(self.start("1-2"), 3 * DEADLINE)
         self.assertEqual((status, err), (0, ""))
         orders = [[row["condition"] for row in self.rows(f"participant_00{k}.csv")] for k in (1, 2)]

@@ -37,7 +37,7 @@ IN_BOX, LIFTED, AWAY = (0.02, 0.0, 0.02 + LENGTH), (0.02, 0.0, 0.30 + LENGTH), (
 
 
 class Hands(Hand):
-    """The first stylus, its buttons, and, where it has a place, a second one that rests there."""
+    """The first stylus with its buttons, and, if a place is given, a second stylus at rest there."""
 
     def __init__(self):
         super().__init__()
@@ -257,7 +257,7 @@ class Tools(unittest.TestCase):
         self.assertIn("box", self.call("release").message)
 
     def test_each_hand_has_settings_of_its_own(self):
-        """Both carry the box, each with its own springs. To set for both what is set already moves nothing."""
+        """Both carry the box, each with its own springs. Setting the present values for both moves nothing."""
         self.lift()
         self.hand.second = (-0.03, 0.0, LIFTED[2])
         self.hand.run(0.3)
@@ -286,7 +286,7 @@ class Tools(unittest.TestCase):
             self.assertEqual(springs(self.fork.next()), (2000.0, 500.0, 5.0))
             self.assertEqual(springs(self.fork_2.next()), (700.0, 300.0, 2.0))
 
-    def test_both_start_anew_when_time_jumps_back(self):
+    def test_both_restart_when_time_jumps_back(self):
         self.lift()
         self.hand.second = (-0.03, 0.0, LIFTED[2])
         self.hand.second_pressed = True

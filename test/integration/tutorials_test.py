@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs the tutorials command by command: every ```bash block, in order, in a folder of its own."""
+"""Runs the tutorials command by command: every ```bash block, in order, in a temporary folder."""
 import glob
 import os
 import re
@@ -20,15 +20,14 @@ BUILD = os.path.dirname(os.environ["CMAKE_PREFIX_PATH"].split(":")[0])  # the de
 
 
 def blocks(text):
-    """The ```bash blocks, each with the heading that it stands under."""
+    """The ```bash blocks, each with its heading."""
     for section in re.split(r"(?m)^(?=#+ )", text):
         for block in re.findall(r"(?ms)^```bash\n(.*?)^```", section):
             yield section.splitlines()[0], block
 
 
 def parts(block):
-    """What comes before a roslaunch line, and that line with the lines that it is continued on; '' where there is
-    none."""
+    """Returns the text before a roslaunch line, and that line with its continuation lines, or '' if there is none."""
     before, launch = re.fullmatch(r"(?ms)(.*?)(^roslaunch .*)?", block).groups()
     return before, launch or ""
 

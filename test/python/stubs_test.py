@@ -1,4 +1,4 @@
-"""The stubs say what the compiled module is: mypy's stubtest, without the messages' modules beside it."""
+"""The stubs match the compiled module, by mypy's stubtest, without the modules of the messages."""
 import os
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""The Python module: by laws, and by what it must refuse."""
+"""The Python module: laws that it must satisfy, and input that it must refuse."""
 import ast
 import inspect
 import pathlib
@@ -17,7 +17,7 @@ DOWN = [1.0, 0.0, 0.0, 0.0]  # the fork points down
 
 
 def holding(settings=None):
-    """A simulation with the box in a hand at rest, over the bench."""
+    """A simulation with the box in a hand at rest above the bench."""
     simulation = sw.Simulation(
         sw.load_scene(BOX), sw.Settings({"contact": "none", "grasp": {"object": "box"}, **(settings or {})})
     )
@@ -37,7 +37,7 @@ def test_a_fork_at_rest_carries_the_weight():
 
 
 def pressed(wrench, axes="world", scale=1.0):
-    """The fork that holds the box under that wrench, at rest."""
+    """State of the fork that holds the box at rest under that wrench."""
     simulation = holding({"external_wrench_timeout": 10.0, "force_scale": scale})
     simulation.push_external_wrench(0.0, wrench, axes=axes)
     simulation.advance(9.5)
@@ -55,7 +55,7 @@ def test_a_machine_s_force_is_carried_like_a_weight():
     np.testing.assert_allclose(fork.tip_wrench[3:], [0.0, 0.0, -0.2], atol=1e-4)
 
 
-def test_what_is_no_wrench_is_refused():
+def test_invalid_wrenches_are_refused():
     simulation = holding()
     before = simulation.state_hash
     for wrench in [np.zeros(5), np.zeros((6, 1)), np.full(6, np.nan), np.full(6, 1e6)]:
@@ -66,7 +66,7 @@ def test_what_is_no_wrench_is_refused():
     assert simulation.state_hash == before
 
 
-def test_states_are_arrays_of_the_shapes_that_are_told():
+def test_states_are_arrays_of_the_documented_shapes():
     simulation = sw.Simulation(sw.load_scene(BOX))
     simulation.push_motion(sw.read_motion(MOTION))
     simulation.advance(1.0)
@@ -141,7 +141,7 @@ def test_two_simulations_do_the_same():
     np.testing.assert_array_equal(runs[0][1], runs[1][1])
 
 
-def test_changes_are_taken_whole_or_not_at_all():
+def test_changes_are_made_completely_or_not_at_all():
     simulation = holding()
     simulation.advance(1.0)
     before = simulation.state_hash
@@ -184,7 +184,7 @@ def test_bad_settings_are_refused(values, words):
             assert word in str(refused.value)
 
 
-def test_what_is_no_pose_is_refused():
+def test_invalid_poses_are_refused():
     simulation = holding()
     for matrix in [np.eye(3), np.full((4, 4), np.nan), 2.0 * np.eye(4), np.diag([1.0, 1.0, -1.0, 1.0])]:
         with pytest.raises(sw.InputError, match="pose: .*must be"):
@@ -221,7 +221,7 @@ def test_hands_times_and_names_that_do_not_exist_are_refused():
     assert simulation.held.tolist() == [True] and simulation.state_hash == before
 
 
-def test_to_advance_to_the_past_takes_no_time():
+def test_advancing_to_the_past_takes_no_time():
     simulation = holding()
     simulation.advance(1.0)
     before = simulation.state_hash

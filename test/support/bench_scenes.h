@@ -8,12 +8,12 @@
 
 namespace spring_workbench {
 
-/// The fork's axis pointing down, the handle at `p`.
+/// Pose of the handle at `p` with the fork pointing down.
 inline RigidTransform pointing_down(const Vector3d& p, double turned = 0.0) {
   return make_transform(Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())) * Quaterniond(0.0, 1.0, 0.0, 0.0), p);
 }
 
-/// Samples at 50 Hz of a handle that goes from `a` to `b` in minimum jerk and turns about the vertical.
+/// Pushes samples at 50 Hz of a handle that moves from `a` to `b` with minimum jerk and turns about the vertical.
 inline void push_move(simulation::Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b,
                       double turn = 0.0, std::size_t hand = 0) {
   for (double t = t0; t < t1 + 1e-9; t += 0.02) {

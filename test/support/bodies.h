@@ -8,7 +8,7 @@
 
 namespace spring_workbench {
 
-/// A box of `size` with its centre at `p_WO`; one without mass stands fixed.
+/// A box of `size` with its centre at `p_WO`; fixed if it has no mass.
 inline scene::Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO,
                        double friction = 0.5) {
   scene::Body b;

@@ -2,13 +2,13 @@
 
 #include <cstddef>
 
-// Counts what the program takes from the heap. For one source of a program only: it defines malloc.
+// Counts the heap allocations of the program. Include in one source file only, because it defines malloc.
 
 namespace spring_workbench::test_support {
 inline long allocations = 0;
 }  // namespace spring_workbench::test_support
 
-// Everything on the heap comes through one of these, Eigen's and operator new's too. Sanitizers bring their own.
+// All heap allocations use one of these, including Eigen's and operator new. Sanitizers define their own.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define COUNTS_ALLOCATIONS 1
 extern "C" {

@@ -9,7 +9,7 @@
 
 namespace spring_workbench::test_support {
 
-/// One way in which a device can be asked to report.
+/// A mode in which a device can report.
 struct FastrakMode {
   fastrak::FastrakFormat format;
   fastrak::FastrakUnits units;

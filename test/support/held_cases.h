@@ -27,11 +27,11 @@ inline motion::MotionSegment random_hand(double duration, std::mt19937& random) 
   return motion::MotionSegment(a, v, w, b, vector(0.5), vector(2.0));
 }
 
-/// A held body with what is random about it, gentle enough for the fork to stay far from its limits.
+/// A random held body and hand, gentle enough for the fork to stay far from its limits.
 struct Case {
   dynamics::HeldBody held;
   motion::MotionSegment hand;
-  double omega;  ///< of the stiffest mode without damping [rad/s]
+  double omega;  ///< undamped frequency of the stiffest mode [rad/s]
 };
 
 inline Case random_case(const std::string& shape, double damping_ratio, double duration, std::mt19937& random,
@@ -57,7 +57,7 @@ inline Case random_case(const std::string& shape, double damping_ratio, double d
   return {held, random_hand(duration, random), std::sqrt(modes.eigenvalues().maxCoeff())};
 }
 
-/// Whether the stiffest mode limits the steps of an integrator: of all but those that are made for stiff forks.
+/// Whether the stiffest mode limits the steps of an integrator: true for all that are not made for stiff forks.
 inline bool limited_by_stiffness(const std::string& integrator) {
   return integrator != "exponential" && integrator != "rosenbrock" && integrator != "implicit_euler" &&
          integrator != "paper";

@@ -10,7 +10,7 @@
 
 namespace spring_workbench::test_support {
 
-// Shapes and integrators by their names, which parameterised tests are called by.
+// Shapes and integrators by name, for the names of parameterised tests.
 
 inline rod::ShapeKind shape_named(const std::string& name) {
   return validation::named<rod::ShapeKind>(name, "test", "shape");
@@ -25,7 +25,7 @@ inline std::unique_ptr<dynamics::Integrator> make_integrator(const std::string& 
 }
 inline std::vector<std::string> integrator_names() { return validation::names<dynamics::IntegratorKind>(); }
 
-/// Those whose limit for short steps is the equation of motion.
+/// The integrators that converge to the equation of motion.
 inline std::vector<std::string> equation_of_motion_integrator_names() {
   std::vector<std::string> names;
   for (const std::string& name : integrator_names()) {

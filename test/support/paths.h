@@ -2,8 +2,8 @@
 
 #include <string>
 
-/// Where things are on this machine. Only paths.cpp is compiled with it, so that the object files of all other tests
-/// are the same in every checkout.
+/// Paths on this machine. Only paths.cpp is compiled with them, so that the object files of all other tests are the
+/// same in every checkout.
 namespace spring_workbench::test_support {
 
 /// A file of this checkout by its path from the root, such as "scenes/single_box.urdf".

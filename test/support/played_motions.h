@@ -7,7 +7,8 @@
 
 namespace spring_workbench::test_support {
 
-/// A hand that goes round a circle in 3 s and turns, in the half-space x > 0 of the transmitter; never twice the same.
+/// A hand that moves around a circle in 3 s and turns, in the half-space x > 0 of the transmitter, without repeating a
+/// pose.
 inline simulated_fastrak::PlayedMotion circling_hand(double x = 0.5) {
   std::vector<motion::StylusSample> samples;
   for (int i = 0; i <= 300; ++i) {

@@ -1,5 +1,5 @@
-// A library to preload: the wall clock of the process shows another time than the machine's, by as many nanoseconds as
-// the file that the environment's SHIFTED_CLOCK names has in its first eight bytes, now.
+// A preloaded library that shifts the wall clock of the process by the number of nanoseconds in the first eight bytes
+// of the file named by the environment variable SHIFTED_CLOCK.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>

@@ -6,7 +6,7 @@
 
 namespace spring_workbench {
 
-/// What can be seen of a simulation now.
+/// A view of the present state of a simulation.
 inline live::View view_of(const simulation::Simulation& simulation) {
   live::SharedStates objects;
   return live::view_of(simulation, std::make_shared<const scene::Scene>(simulation.scene()), objects);

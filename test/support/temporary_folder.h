@@ -8,7 +8,7 @@
 
 namespace spring_workbench::test_support {
 
-/// A folder of its own for one test; gone with it.
+/// A temporary folder for one test, removed at its end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

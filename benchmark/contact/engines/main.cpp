@@ -1,4 +1,5 @@
-// contact_engines [quick]: piles, unlike masses and the card house in ours and in the engines of the report; a CSV.
+// contact_engines [quick]: piles, unequal masses and the card house in our contact and in the engines of the report, as
+// CSV.
 #include <algorithm>
 #include <iostream>
 #include <numeric>
@@ -13,7 +14,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double sample_time = 0.02;  // s
-constexpr double most_seconds = 5.0;  // of processor time, for a row
+constexpr double max_seconds = 5.0;   // of processor time, for a row
 
 BoxScene box_scene(const ContactTrial& trial) {
   BoxScene s{trial.scene, trial.settings.grasp.object, {}};
@@ -46,7 +47,7 @@ Figures run_engine(const BoxEngine& engine, const ContactTrial& trial, double st
   Figures f;
   const int a_sample = std::max(1, static_cast<int>(sample_time / step + 0.5));
   const double h = sample_time / a_sample;
-  for (int i = 0; i * h < trial.duration - 1e-9 && f.finite && f.spent < most_seconds; ++i) {
+  for (int i = 0; i * h < trial.duration - 1e-9 && f.finite && f.spent < max_seconds; ++i) {
     const double begin = processor_time();
     world->step(i * h, h);
     f.spent += processor_time() - begin;
@@ -58,7 +59,7 @@ Figures run_engine(const BoxEngine& engine, const ContactTrial& trial, double st
 
 Figures run_ours(const ContactTrial& trial) {
   ContactTrial limited = trial;
-  limited.most_seconds = most_seconds;
+  limited.max_seconds = max_seconds;
   TrialRun run(limited);
   Figures f;
   const PairDepth depth(trial.scene);

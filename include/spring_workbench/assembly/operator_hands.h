@@ -10,36 +10,38 @@
 
 namespace spring_workbench::assembly {
 
-/// The hands of the simulated operator, numbered from 0: where each is, the reach that it makes, and how it is tracked.
-/// Reaches are minimum-jerk motions whose duration follows Fitts' law (J. Exp. Psychology 47, 1954); each ends a little
-/// off its goal.
+/// The hands of the simulated operator, numbered from 0: the pose of each, its current reach, and the noise of its
+/// tracker. Reaches are minimum-jerk motions whose duration follows Fitts' law (J. Exp. Psychology 47, 1954); each
+/// misses its goal by a small random amount.
 class OperatorHands {
  public:
   using Numbers = std::vector<std::size_t>;
 
-  /// At rest at `X_WH`, one pose per hand. Throws InputError if a setting is out of its range.
+  /// Starts with the hands at rest at `X_WH`, one pose per hand. Throws InputError if a setting is out of range.
   OperatorHands(const std::vector<RigidTransform>& X_WH, const OperatorSettings& settings);
 
   std::size_t size() const { return hands_.size(); }
   const RigidTransform& X_WH_start(std::size_t hand) const { return hands_[hand].X_WH_start; }
-  /// Where the reach of a hand ends.
-  const RigidTransform& X_WH_to(std::size_t hand) const { return hands_[hand].X_WH_to; }
-  /// Where the hands are, as of their newest samples.
+  /// End pose of a hand's current reach.
+  const RigidTransform& X_WH_goal(std::size_t hand) const { return hands_[hand].X_WH_goal; }
+  /// Poses of the hands at their newest samples.
   std::vector<RigidTransform> X_WH() const;
   bool pressed(std::size_t hand) const { return hands_[hand].pressed; }
-  /// The hand, but for the `others`, that started nearest to a point, seen from above; there must be one.
+  /// The hand, not counting `others`, whose start pose is horizontally nearest to the point `p_W` [m]. There must be
+  /// one.
   std::size_t nearest(const Vector3d& p_W, const Numbers& others) const;
 
   void press(std::size_t hand, bool pressed) { hands_[hand].pressed = pressed; }
-  /// Begins a reach of these hands together at `t_from` [s], each from the end of its last one, or from where it is on
-  /// its way there, to its `X_WH`. Returns when the reach ends [s]: the longest one's time is that of all.
+  /// Starts a joint reach of these hands at `t_from` [s]. Each goes to its `X_WH` from the end of its last reach or, if
+  /// it is still moving, from its present pose. All take as long as the slowest one; returns the time at which they
+  /// arrive [s].
   double reach(const Numbers& hands, const std::function<RigidTransform(std::size_t)>& X_WH, double t_from);
-  /// Moves a hand to where it is at `t` [s], and returns its sample.
+  /// Moves a hand along its reach to time `t` [s] and returns its sample.
   motion::StylusSample sample(std::size_t hand, double t);
 
  private:
   struct Hand {
-    RigidTransform X_WH_start, X_WH, X_WH_from, X_WH_to;
+    RigidTransform X_WH_start, X_WH, X_WH_from, X_WH_goal;
     double t_from = 0.0, t_to = 0.0;
     bool pressed = false;
   };

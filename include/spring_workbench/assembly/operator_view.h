@@ -9,12 +9,12 @@
 
 namespace spring_workbench::assembly {
 
-/// What the simulated operator sees at one moment.
+/// What the simulated operator perceives at one moment.
 struct OperatorView {
   /// The tool in one hand.
   struct Tool {
-    RigidTransform X_HE = RigidTransform::Identity();  ///< its tip at rest, in the handle
-    bool turns = true;                                 ///< it turns what it holds: all but `spring` do
+    RigidTransform X_HE = RigidTransform::Identity();  ///< pose of its tip at rest, in the handle frame
+    bool turns = true;                                 ///< whether it turns the held object: all tools but `spring` do
     std::string held_object;                           ///< empty: nothing
   };
   std::vector<bodies::BodyState> objects;  ///< the movable ones
@@ -23,7 +23,7 @@ struct OperatorView {
   bool turns() const {
     return std::all_of(tools.begin(), tools.end(), [](const Tool& tool) { return tool.turns; });
   }
-  /// Throws InputError if it is not seen.
+  /// Throws InputError if there is no object of this name.
   const bodies::BodyState& object(const std::string& name) const {
     for (const bodies::BodyState& state : objects) {
       if (state.name == name) return state;

@@ -15,24 +15,24 @@
 
 namespace spring_workbench::assembly {
 
-/// A simulated person who assembles the scene: takes each object that is not at its target with the tool in the hand,
-/// carries it there and sets it down, by looking at where the object is and correcting, whatever the tool does. It
-/// perceives everything with a delay. It knows of a tool where its tip is at rest, and whether it turns what it holds:
-/// with one that does not, it carries objects as they are, and leaves alone one that is in its place but turned. It has
-/// as many hands as the scene has starts of a handle. An object whose target names several grips is carried by one hand
-/// at each, together; any other one by the hand that begins nearest to it, which hands it over midway if another begins
-/// nearer to the target. It is not a person: no learning, no tiring, no second thoughts.
+/// A simulated person who assembles the scene. It picks up each object that is not at its target, carries it there and
+/// sets it down, and corrects its motion by the perceived pose of the object, whatever the tool. It perceives
+/// everything with a delay. All that it knows of a tool is the rest pose of the tip and whether the tool turns the held
+/// object. With a tool that does not, it keeps the orientation of objects, and ignores an object that is in position
+/// but turned. It has one hand for each start pose of a handle in the scene. An object whose target lists several grips
+/// is carried by that many hands together; any other object by the hand that starts nearest to it, which hands it over
+/// midway if another hand starts nearer to the target. Learning, fatigue and changes of mind are not modelled.
 class SimulatedOperator final : public motion::StylusSource {
  public:
-  using Look = std::function<OperatorView()>;
+  using Observe = std::function<OperatorView()>;
 
-  /// `look` is asked for the present state once per moment. Each hand starts at the scene's start of its handle, and
-  /// keeps that attitude for taking up objects. Throws InputError when a setting is out of its range.
-  SimulatedOperator(const scene::Scene& scene, const OperatorSettings& settings, Look look);
+  /// `look` is called once per sample time and returns the present state. Each hand starts at the scene's start pose of
+  /// its handle, and grasps objects in that orientation. Throws InputError if a setting is out of range.
+  SimulatedOperator(const scene::Scene& scene, const OperatorSettings& settings, Observe look);
 
   std::size_t hands() const { return hands_.size(); }
-  /// The next sample: at each moment one of each hand, in their order; nothing when every object is in place or has
-  /// been tried often enough.
+  /// The next sample: at each sample time one for each hand, in order. Nothing once every object is in place or has
+  /// been given up after several attempts.
   std::optional<motion::StylusSample> next() override;
 
  private:
@@ -42,19 +42,19 @@ class SimulatedOperator final : public motion::StylusSource {
     OperatorView view;
     std::vector<RigidTransform> X_WH;  ///< poses of the hands at that time
   };
-  /// A hand that is to take hold of the object, and where: in the object's frame.
-  struct Taker {
+  /// A hand that is to grasp the object, and the point at which, in the object's frame [m].
+  struct Grasper {
     std::size_t hand = 0;
     Vector3d p_OG = Vector3d::Zero();
   };
   using Numbers = OperatorHands::Numbers;
-  using Place = std::function<RigidTransform(std::size_t)>;
+  using PoseOfHand = std::function<RigidTransform(std::size_t)>;
 
-  void begin_moment();
+  void begin_sample();
   void decide();
   void choose();
   void assign();
-  void take_next();
+  void choose_next_grasper();
   void insert();
   void grip();
   void carry();
@@ -62,30 +62,32 @@ class SimulatedOperator final : public motion::StylusSource {
   void let_go();
 
   const OperatorView& view() const { return percepts_.front().view; }
-  const bodies::BodyState& object() const { return view().object(job_->object()); }  ///< the object of the present job
+  const bodies::BodyState& object() const { return view().object(job_->object()); }  ///< the object of the current job
   bool holds(std::size_t hand) const { return view().tools[hand].held_object == job_->object(); }
-  Vector3d grip_point() const;  ///< where the next hand takes the object, in world
+  Vector3d grasp_point() const;  ///< point at which the next hand grasps the object, in world [m]
   RigidTransform hand_lifted(std::size_t hand) const;
-  RigidTransform carry_goal() const;  ///< of the object: above its target, or between the hand and the receiver
-  /// Moves hands together; `look` says whether what comes then waits until the end of the reach is seen.
-  void reach(const Numbers& hands, const Place& X_WH, Phase then, bool look = true);
-  void take_to(const Vector3d& p_WE, Phase then);         ///< moves the tip of the hand that takes
-  void bring_to(const RigidTransform& X_WO, Phase then);  ///< moves the hands, and along with them the object
+  RigidTransform carry_goal()
+      const;  ///< goal pose of the object: above its target, or between the hand and the receiving hand
+  /// Moves hands together, then enters the phase `then`; with `look`, only after the end of the reach has been
+  /// perceived.
+  void reach(const Numbers& hands, const PoseOfHand& X_WH, Phase then, bool look = true);
+  void move_tip_to(const Vector3d& p_WE, Phase then);           ///< moves the tip of the grasping hand
+  void move_object_to(const RigidTransform& X_WO, Phase then);  ///< moves the hands such that the object goes to `X_WO`
   void wait(double seconds, Phase then);
 
   const OperatorSettings settings_;
-  const Look look_;
+  const Observe observe_;
   OperatorHands hands_;
   std::vector<OperatorJob> jobs_;
   OperatorJob* job_ = nullptr;
-  std::deque<Taker> takers_;             ///< still to take hold of the object; the first one is at it
-  std::optional<std::size_t> receiver_;  ///< gets the object from the hand that carries it
-  Numbers engaged_;                      ///< hold the object or, the last one, take hold of it
-  double carry_height_;                  ///< how far objects are lifted above their target to be carried [m]
-  std::deque<Percept> percepts_;         ///< the first is old enough for the operator to be aware of it
+  std::deque<Grasper> graspers_;         ///< hands that have yet to grasp the object; the first is grasping now
+  std::optional<std::size_t> receiver_;  ///< hand to which the carrying hand gives the object
+  Numbers engaged_;                      ///< hands that hold the object; the last one may still be grasping it
+  double carry_height_;                  ///< height above their targets at which objects are carried [m]
+  std::deque<Percept> percepts_;         ///< the first is one reaction time old
   Phase phase_ = Phase::choose;
   long moments_ = 0;
-  std::size_t next_hand_ = 0;  ///< whose sample comes next
+  std::size_t next_hand_ = 0;  ///< hand whose sample is returned next
   double t_ = 0.0;
   double t_decide_ = 0.0;
   int corrections_ = 0;

@@ -7,7 +7,7 @@
 
 namespace spring_workbench::assembly {
 
-/// Standard normal numbers by Box and Muller: the same from the same seed with every standard library.
+/// Standard normal random numbers (Box–Muller): the same sequence from a seed with every standard library.
 class StandardNormal {
  public:
   explicit StandardNormal(unsigned seed) : random_(seed) {}

@@ -12,18 +12,18 @@
 
 namespace spring_workbench::assembly {
 
-/// Observes an assembly without changing it: which objects are in place, and the score of all hands together.
+/// Observes an assembly without affecting it: which objects are in place, and the total score of all hands.
 class TaskMonitor {
  public:
-  /// Judges by the targets of `scene`; one without targets has no task, and `observe` does nothing.
+  /// Uses the targets of `scene`. Without targets there is no task, and `observe` does nothing.
   explicit TaskMonitor(const scene::Scene& scene);
 
   /// Call after each `advance`: it compares the states of two successive calls.
   void observe(const simulation::Simulation& simulation);
-  /// From the start again.
+  /// Starts the task again.
   void reset();
 
-  /// One per target, in the order of their names.
+  /// One per target, sorted by name.
   const std::vector<Placement>& placements() const { return placements_; }
   const TaskScore& score() const { return score_; }
 
@@ -34,14 +34,14 @@ class TaskMonitor {
   };
   /// State of a hand at the last call.
   struct Hand {
-    std::optional<Vector3d> p;  ///< none: no sample yet
+    std::optional<Vector3d> p;  ///< position of the handle [m]; none before the first sample
     std::string held;           ///< empty: nothing
   };
-  /// State of an object that one or several hands hold.
+  /// State of an object that one or more hands hold.
   struct Carried {
     Vector3d p = Vector3d::Zero();             ///< at the last call
     double since = 0.0;                        ///< [s]
-    std::map<std::string, double> last_touch;  ///< by the other's name [s]
+    std::map<std::string, double> last_touch;  ///< time of the last contact, by the other body's name [s]
   };
 
   void judge(const std::vector<bodies::BodyState>& objects);
@@ -61,7 +61,7 @@ class TaskMonitor {
   std::vector<Hand> hands_;
   std::map<std::string, Carried> carried_;
   std::set<std::string> broken_;
-  std::map<std::string, double> released_height_;  ///< of objects that may be falling [m]
+  std::map<std::string, double> released_height_;  ///< height at release, of objects that may be falling [m]
 };
 
 }  // namespace spring_workbench::assembly

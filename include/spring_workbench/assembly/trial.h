@@ -12,19 +12,19 @@ namespace spring_workbench::assembly {
 struct Trial {
   TaskScore score;
   std::vector<Placement> placements;
-  std::vector<motion::StylusSample> motion;  ///< of the hands, as they were sampled
+  std::vector<motion::StylusSample> motion;  ///< samples of all hands
   int steps_rejected = 0;
 };
 
-/// Returns what an operator perceives of the simulation: its objects and the tools of the hands.
+/// Returns the operator's view of the simulation: its objects and the tools in the hands.
 OperatorView operator_view(const simulation::Simulation& simulation);
 
-/// The settings with a stylus for each hand of the operator, or more.
+/// The settings with at least one stylus for each hand of the operator.
 simulation::SimulationSettings with_all_hands(const scene::Scene& scene, simulation::SimulationSettings settings);
 
-/// Runs one: no clock, no ROS; the same arguments give bit-identical results. The simulation has all hands, and runs
-/// one sample behind them, as it does live. Ends when the operator does, or after `time_limit` [s]. Throws InputError
-/// as Simulation does.
+/// Runs one trial without clock or ROS; the same arguments give bit-identical results. The simulation stays one sample
+/// behind the hands, as in a live session. Ends when the operator finishes or after `time_limit` [s] of simulated time.
+/// Throws InputError as Simulation does.
 Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings& simulation_settings,
                 const OperatorSettings& operator_settings, double time_limit = 300.0);
 

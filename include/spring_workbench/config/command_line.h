@@ -13,26 +13,27 @@
 
 namespace spring_workbench::config {
 
-const char* const command_line = "command line";  ///< where its values come from, in messages
+const char* const command_line = "command line";  ///< origin of the values, for error messages
 
-/// An option `--name VALUE` of a program, or `--name` alone where `argument` is no_argument.
+/// An option `--name VALUE` of a program, or `--name` alone if `argument` is no_argument.
 struct CommandOption {
   std::string name;
   std::function<void(const std::string& value)> take;
   int argument = required_argument;
 };
 
-// Options that set a variable, which must live until the command line is read; the last one given counts.
+// Options that set a variable, which must outlive the reading of the command line. If an option is given twice, the
+// last value counts.
 CommandOption text_option(const std::string& name, std::string& value);
 CommandOption number_option(const std::string& name, const validation::NumberRule& rule, double& value);
 CommandOption integer_option(const std::string& name, int min, int max, int& value);
 
-/// Reads the options in the order in which they are given. Returns false at `--help`, after which nothing is read.
-/// Throws InputError for an option that is not among `options`, one without its value, and an argument that is none.
+/// Reads the options in the order in which they are given. Returns false at `--help`, and ignores the rest. Throws
+/// InputError for an unknown option, a missing value, or an argument that is not an option.
 bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& options);
 
-/// A whole program: `run(*options)`, or the help text where `parse()` gives none. Turns what it throws into one line
-/// and an exit status: 0 done, 2 bad arguments or input, 1 failed.
+/// Body of main(): calls `run(*options)`, or prints the help text if `parse()` returns nothing. Prints an exception as
+/// one line on stderr. Returns the exit status: 0 success, 1 failure, 2 bad arguments or input.
 template <typename Parse, typename Run>
 int run_program(const std::string& name, const std::string& help, Parse&& parse, Run&& run) {
   const auto end = [&](std::string line, int status) {

@@ -5,23 +5,23 @@
 
 namespace spring_workbench::config {
 
-/// A file that appears whole or not at all, even if the program or the machine ends meanwhile: it is written next to
-/// its path (as `PATH.part<process>`), flushed to the disk, and renamed by commit(). Anything but a regular file (a
-/// pipe, /dev/null) is written in place.
+/// A file that is written atomically, even if the program or the machine crashes meanwhile: it is written next to its
+/// path (as `PATH.part<process>`), flushed to disk, and renamed by commit(). Anything but a regular file (a pipe,
+/// /dev/null) is written in place.
 class OutputFile {
  public:
-  /// Throws InputError if the file cannot be made.
+  /// Throws InputError if the file cannot be created.
   explicit OutputFile(std::string path);
-  ~OutputFile();  ///< removes what was not committed
+  ~OutputFile();  ///< removes a file that was not committed
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   /// Throws InputError if not everything can be written.
   void write(const std::string& text);
-  /// Replaces the first bytes; what is written next goes behind the last. Throws InputError likewise.
+  /// Overwrites the first bytes; later calls of write() still append at the end. Throws InputError like write().
   void write_begin(const std::string& bytes);
-  /// Throws InputError if not everything is on the disk under its name. What was there before stays in that case,
-  /// except if only the folder's entry could not be brought to the disk.
+  /// Flushes and renames the file. Throws InputError on failure; an earlier file of the same name is then kept, unless
+  /// only the flush of the folder failed.
   void commit();
 
  private:

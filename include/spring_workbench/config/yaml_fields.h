@@ -11,8 +11,8 @@
 
 namespace spring_workbench::config {
 
-// Typed readers of one YAML value. `where` says where it came from (a file's name, "command line"); the line is added
-// where the node knows it. Each throws InputError as above.
+// Typed readers of one YAML value. `where` names its origin (a file name, "command line"); messages add the line number
+// if the node has one. Each throws InputError for a missing or invalid value.
 double read_number(const YAML::Node& node, const std::string& where, const std::string& key,
                    const validation::NumberRule& rule);
 int read_integer(const YAML::Node& node, const std::string& where, const std::string& key, int min, int max);
@@ -25,19 +25,19 @@ template <typename E>
 E read_named(const YAML::Node& node, const std::string& where, const std::string& key) {
   return validation::named<E>(read_choice(node, where, key, validation::names<E>()), where, key);
 }
-/// `count` finite numbers as a list, or as a string of numbers with spaces between.
+/// Reads `count` finite numbers, given as a list or as a string separated by spaces.
 std::vector<double> read_numbers(const YAML::Node& node, const std::string& where, const std::string& key,
                                  std::size_t count);
-/// A pose as `x y z qx qy qz qw` (list or string) [m, –]; the quaternion is normalised, a zero one is refused.
+/// Reads a pose `x y z qx qy qz qw` (list or string) [m, –]. The quaternion is normalised; a zero one is refused.
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key);
 
-/// Refuses a node that is not a map, or one with a key that is not in `allowed` or is there twice; `prefix` goes before
-/// the key in messages.
+/// Throws InputError if the node is not a map, or if a key is duplicate or not in `allowed`. `prefix` precedes the key
+/// in messages.
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed);
 
-/// Parses a YAML file. An empty file is an empty map. Throws InputError with file:line for what cannot be read or
-/// parsed, and for what aliases make endless or immense.
+/// Parses a YAML file. An empty file is an empty map. Throws InputError with file:line if the file cannot be read or
+/// parsed, or if its aliases make it endless or huge.
 YAML::Node load_yaml_file(const std::string& path);
 
 }  // namespace spring_workbench::config

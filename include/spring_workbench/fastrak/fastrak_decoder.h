@@ -13,24 +13,24 @@
 
 namespace spring_workbench::fastrak {
 
-/// Another record than data: the answer to a command (status, a list read back, an error), without its end of line.
+/// A record other than data: the reply to a command (status, a list read back, an error), without its line break.
 struct FastrakReply {
   std::string text;
 };
 
 using FastrakMessage = std::variant<FastrakRecord, FastrakReply>;
 
-/// Finds records in a stream of bytes that may be cut, glued, mixed with garbage or of another mode. The same bytes
-/// give the same messages, however they are split over the calls.
+/// Finds records in a stream of bytes in which records may be truncated, joined, mixed with garbage or in another mode.
+/// The same bytes give the same messages, however they are split between calls.
 class FastrakDecoder {
  public:
-  /// `layouts`: of the stations that may report. Without any, only replies are found.
+  /// `layouts`: record layouts of the stations that may report. Without any, only replies are found.
   explicit FastrakDecoder(const std::map<int, FastrakLayout>& layouts = {});
 
   /// Returns the records that are complete with these bytes, in order.
   std::vector<FastrakMessage> decode(std::string_view bytes);
 
-  /// Returns how many bytes so far belonged to no record.
+  /// Returns the number of bytes so far that belonged to no record.
   std::size_t bytes_skipped() const { return bytes_skipped_; }
 
  private:

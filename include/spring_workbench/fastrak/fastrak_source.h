@@ -16,34 +16,36 @@ namespace spring_workbench::fastrak {
 
 class SerialPort;
 
-/// How a FASTRAK is connected and what it shall send.
+/// How a FASTRAK is connected and what it is configured to send.
 struct FastrakSettings {
   std::string port = "/dev/ttyUSB0";
-  int baud = 115200;  ///< as the switches on the device's back say; 2400, 4800 … 115200
+  int baud = 115200;  ///< as set by the switches on the back of the device: 2400, 4800 … 115200
   FastrakFormat format = FastrakFormat::binary;
-  std::vector<int> stations = {1};          ///< each 1 … 4, none twice; with n of them, each reports at 120 Hz / n
-  std::vector<int> styluses = {1};          ///< stations whose switch is read
-  bool euler = false;                       ///< angles instead of quaternions
-  bool redundant = true;                    ///< every pose twice, so that no line fault can pass (fastrak_output_list)
-  Vector3d hemisphere = Vector3d::UnitX();  ///< towards the half-space the stations are in, in T; zero: as tracked
+  std::vector<int> stations = {1};  ///< each 1 … 4, without duplicates; n stations report at 120 Hz / n each
+  std::vector<int> styluses = {1};  ///< stations whose switch is read
+  bool euler = false;               ///< whether to request angles instead of quaternions
+  bool redundant = true;            ///< sends every pose twice to detect line errors (fastrak_output_list)
+  Vector3d hemisphere =
+      Vector3d::UnitX();  ///< points into the half-space of the stations, in T; zero: tracked by the device
 };
 
 /// The keys of read_fastrak_settings.
 const std::vector<std::string>& fastrak_keys();
 
-/// From a map: `port`, `baud`, `format` (binary, ascii), `stations` (list), `orientation` (quaternion, euler),
-/// `redundant`, `hemisphere` (x y z), `stylus` (true: station 1; false: none; or a list); other keys are not looked at.
-/// Throws InputError with `where`, key, value and rule.
+/// Reads a map: `port`, `baud`, `format` (binary, ascii), `stations` (list), `orientation` (quaternion, euler),
+/// `redundant`, `hemisphere` (x y z), `stylus` (true: station 1; false: none; or a list). Ignores other keys. Throws
+/// InputError with `where`, key, value and rule.
 FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where);
 
-/// The commands that bring the device into the mode that the settings ask for, whatever it was in, in portions that it
-/// can take at once; it streams after a further `C`.
+/// The commands that put the device into the mode of the settings from any other mode, in chunks that its input buffer
+/// can take. A further `C` then starts the stream.
 std::vector<std::string> fastrak_set_up(const FastrakSettings& settings);
 
-/// A FASTRAK on a serial port. It is set up again whenever it has been silent, or not understood, for 0.25 s.
+/// A FASTRAK on a serial port. It is configured again whenever nothing, or nothing intelligible, has arrived for 0.25
+/// s.
 class FastrakSource : public motion::LiveSource {
  public:
-  /// Opens nothing yet.
+  /// Does not open the port yet; read() does.
   explicit FastrakSource(const FastrakSettings& settings);
   ~FastrakSource() override;  ///< stops the device's stream
   std::vector<motion::StationSample> read(double timeout) override;
@@ -62,9 +64,9 @@ class FastrakSource : public motion::LiveSource {
   void stamp(std::size_t first, Time now);
   void take(const FastrakReply& reply, Time now);
   void begin_stream();
-  void give_up_waiting();
-  std::string why_silent() const;
-  std::chrono::steady_clock::duration patience(double s) const;
+  void handle_timeout();
+  std::string reason_for_silence() const;
+  std::chrono::steady_clock::duration time_allowed(double s) const;
 
   const FastrakSettings settings_;
   const std::vector<std::string> set_up_;
@@ -74,14 +76,14 @@ class FastrakSource : public motion::LiveSource {
   std::unique_ptr<SerialPort> port_;
   FastrakDecoder decoder_;
   std::vector<motion::StationSample> samples_;
-  double last_reading_ = 0.0;  ///< when records were read last [s]
-  std::size_t portion_ = 0;    ///< of set_up_ that is waited for
-  Time deadline_{};            ///< closed: when to look again; else: when waiting has been in vain
-  int attempts_ = 0;           ///< set-ups in vain since the device last streamed
-  bool answered_ = false;      ///< something came since the set-up began …
-  bool understood_ = false;    ///< … and it was a FASTRAK's
+  double last_reading_ = 0.0;  ///< time at which records were last read [s]
+  std::size_t portion_ = 0;    ///< index of the chunk of `set_up_` whose reply is awaited
+  Time deadline_{};            ///< if closed, the time of the next attempt to open; otherwise when waiting times out
+  int attempts_ = 0;           ///< failed set-ups since the device last streamed
+  bool answered_ = false;      ///< whether anything has arrived since the set-up began …
+  bool understood_ = false;    ///< … and whether it came from a FASTRAK
   bool has_streamed_ = false;
-  std::string problem_;  ///< what `health` says while nothing streams
+  std::string problem_;  ///< text of `health` while not streaming
   std::string refusal_;  ///< the device's last error record
   std::string firmware_;
   std::map<std::string, std::size_t> counters_;

@@ -8,11 +8,11 @@
 
 namespace spring_workbench::fastrak {
 
-/// Stamps the samples of one station of a device evenly, at the device's cadence. The cadence is measured over three
-/// seconds without a gap, and again if samples drift from it; until then a stamp is the moment of receipt.
+/// Stamps the samples of one station of a device evenly, at the device's sample rate. The rate is measured over three
+/// seconds without a gap, and again if samples drift from it. Until it is known, the stamp is the time of receipt.
 class StationStream {
  public:
-  /// `dropout_after` [s], > 0: see StreamMonitor. `even_stamps`: false leaves the moments of receipt as they are.
+  /// `dropout_after` [s], > 0: see StreamMonitor. With `even_stamps` false, the stamps are the times of receipt.
   StationStream(double dropout_after, bool even_stamps) : even_stamps_(even_stamps), monitor_(dropout_after) {}
 
   /// Returns the stamp [s] of the next sample, which was received at `received` [s] by the same clock.
@@ -24,7 +24,7 @@ class StationStream {
 
   bool even_stamps_;
   std::optional<CadenceClock> cadence_;
-  std::vector<double> receipts_;  ///< while the cadence is measured [s]
+  std::vector<double> receipts_;  ///< times of receipt while the rate is being measured [s]
   motion::StreamMonitor monitor_;
 };
 

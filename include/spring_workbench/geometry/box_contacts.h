@@ -6,19 +6,19 @@
 
 namespace spring_workbench::geometry {
 
-/// A place where two boxes touch, or would when they came together along `n_W`.
+/// A point at which two boxes touch, or would touch if they approached each other along `n_W`.
 struct BoxContact {
   Vector3d p_W = Vector3d::Zero();   ///< on `b` [m]
   Vector3d n_W = Vector3d::UnitZ();  ///< unit, from `b` towards `a`
-  double gap = 0.0;                  ///< along `n_W`; negative: as deep [m]
+  double gap = 0.0;                  ///< signed distance along `n_W` [m]; negative: penetration
 };
 
-/// Returns the contacts of two boxes with a gap smaller than `margin` [m], along the direction in which they are
-/// furthest apart: up to four corners of one face over the other, clipped to it, or the crossing of two edges. None is
-/// there where the boxes would pass by each other along it.
+/// Returns the contacts of two boxes with a gap smaller than `margin` [m] along the direction in which they are
+/// furthest apart: up to four points of one face clipped to the other face, or the crossing of two edges. Empty if the
+/// boxes would pass each other along this direction.
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double margin);
 
-/// The same of a box above the half-space `n · x < height`: the corners of the face that looks towards it.
+/// The same for a box and the half-space `n · x < height`: the corners of the face that faces it.
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const Vector3d& n_W, double height, double margin);
 
 }  // namespace spring_workbench::geometry

@@ -8,28 +8,29 @@ namespace spring_workbench::geometry {
 
 /// A box around one shape of a body.
 struct OutlineBox {
-  RigidTransform X = RigidTransform::Identity();  ///< of the box's middle and axes
+  RigidTransform X = RigidTransform::Identity();  ///< pose of the box: its centre and axes
   Vector3d half = Vector3d::Zero();               ///< half edges [m]
-  bool exact = false;                             ///< the shape is this box
+  bool exact = false;                             ///< whether the shape is this box, not only enclosed by it
 };
 
-/// The boxes around shapes, in the frame that these are placed in.
+/// Returns a box around each shape, in the frame in which the shapes are placed.
 std::vector<OutlineBox> outline(const std::vector<Shape>& shapes);
 
-/// How far the box reaches from its middle along `n_W`, times the length of that [m].
+/// Half extent of the box along `n_W`, times the norm of `n_W` [m].
 inline double reach(const OutlineBox& box, const Vector3d& n_W) {
   return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half);
 }
 
-/// Direction along which two boxes are furthest apart, and by how much: a lower bound of their distance. Negative if
-/// they overlap: minus the shortest displacement that separates them (fifteen axes of the separating axis theorem).
+/// Direction along which two boxes are furthest apart, and their gap along it, which is a lower bound of their
+/// distance. If they overlap it is negative: minus the shortest displacement that separates them (separating axis
+/// theorem, fifteen axes).
 struct BoxGap {
   double gap = 0.0;                  ///< [m]
   Vector3d n_W = Vector3d::UnitZ();  ///< unit, from `b` towards `a`
 };
 BoxGap gap_between(const OutlineBox& a, const OutlineBox& b);
 
-/// The same for a box above the half-space below `height`.
+/// The same for a box and the half-space z < `height`.
 BoxGap gap_above(const OutlineBox& box, double height);
 
 }  // namespace spring_workbench::geometry

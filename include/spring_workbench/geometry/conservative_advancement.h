@@ -4,9 +4,10 @@
 
 namespace spring_workbench::geometry {
 
-/// A body's motion over a fraction f of 0 … 1: straight in position, p + f · move, and turning evenly about one axis.
+/// A body's motion for f = 0 … 1: its origin moves along the line p + f · move, and it rotates about a fixed axis at a
+/// constant rate.
 struct StraightMotion {
-  Vector3d p_WO = Vector3d::Zero();    ///< of the body's origin at f = 0 [m]
+  Vector3d p_WO = Vector3d::Zero();    ///< position of the body's origin at f = 0 [m]
   Vector3d move_W = Vector3d::Zero();  ///< [m]
   Vector3d turn_W = Vector3d::Zero();  ///< [rad]
 };
@@ -17,12 +18,13 @@ struct HalfSpace {
   double height = 0.0;               ///< [m]
 };
 
-/// Fraction of `motion`, at most `longest`, up to which surely no corner of the body's box is deeper than `tolerance`
-/// [m] in the half-space: a corner's height differs from its tangent by at most ½ f² times its second derivative.
+/// Fraction of `motion`, at most `longest`, up to which it is guaranteed that no corner of the body's box is deeper
+/// than `tolerance` [m] in the half-space: a corner's height differs from its tangent by at most ½ f² times the bound
+/// of its second derivative.
 double clear_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below, double tolerance,
                    double longest);
 
-/// The same for a box that stands still: the separating plane is fixed to that one of the two that gives the larger
+/// The same for another box, at rest. The separating plane is fixed to whichever of the two boxes gives the larger
 /// fraction.
 double clear_of(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
                 double longest);

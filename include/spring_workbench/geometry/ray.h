@@ -12,8 +12,8 @@ struct RayHit {
   Vector3d normal_O;  ///< outward unit normal; zero if the ray starts inside
 };
 
-/// Returns the first hit of the ray from `p_O` [m] along the unit vector `d_O` (both in the frame of the shapes) on any
-/// of the shapes, at most `reach` [m] away; at distance 0 if it starts inside one. Nothing if it hits none.
+/// Returns the first point at which the ray from `p_O` [m] along the unit vector `d_O` (both in the frame of the
+/// shapes) hits a shape within `reach` [m]; at distance 0 if it starts inside one. Nothing if it hits none.
 std::optional<RayHit> first_along_ray(const std::vector<Shape>& shapes, const Vector3d& p_O, const Vector3d& d_O,
                                       double reach);
 

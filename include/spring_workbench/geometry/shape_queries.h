@@ -18,25 +18,25 @@ VolumeProperties volume_properties(const Geometry& geometry);
 /// Whether the point `p_S` [m] (in the shape's frame) lies inside the closed shape. Meshes by winding number.
 bool contains(const Geometry& geometry, const Vector3d& p_S);
 
-/// Smallest axis-aligned box of a shape in the frame A that `X_AS` places it in; by default in its own frame.
+/// Smallest axis-aligned box, in a frame A, of a shape placed at `X_AS`; by default in the shape's own frame.
 Eigen::AlignedBox3d bounding_box(const Geometry& geometry, const RigidTransform& X_AS = RigidTransform::Identity());
 
-/// Smallest axis-aligned box in the frame A of a box in the axes of the frame B that `X_AB` places in A.
+/// Smallest axis-aligned box, in a frame A, of a box that is axis-aligned in the frame B at `X_AB`.
 Eigen::AlignedBox3d bounding_box(const Eigen::AlignedBox3d& box_B, const RigidTransform& X_AB);
 
-/// The box, larger by `by` [m] on every side.
+/// The box enlarged by `by` [m] on every side.
 Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by);
 
-/// The corners of a box with these half edges, in its own frame.
+/// The corners of a box with these half edge lengths, in its own frame.
 std::array<Vector3d, 8> corners(const Vector3d& half);
 
-/// Axis-aligned box of shapes in the frame O that they are placed in; empty without shapes.
+/// Axis-aligned box around shapes, in the frame O in which they are placed; empty if there are none.
 Eigen::AlignedBox3d bounding_box(const std::vector<Shape>& shapes);
 
 /// Whether the point `p_O` lies inside one of the shapes.
 bool contains(const std::vector<Shape>& shapes, const Vector3d& p_O);
 
-/// Largest distance of a point of the shapes from the origin of O [m]; 0 without shapes.
+/// Largest distance of a point of the shapes from the origin of O [m]; 0 if there are none.
 double bounding_radius(const std::vector<Shape>& shapes);
 
 }  // namespace spring_workbench::geometry

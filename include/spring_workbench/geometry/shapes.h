@@ -20,11 +20,11 @@ struct Cylinder {
   double radius;  ///< [m]
   double length;  ///< [m]
 };
-/// Triangles in the shape's frame; shared, never changed after loading.
+/// Triangles in the shape's frame; shared and immutable after loading.
 struct TriangleMesh {
   std::vector<Vector3d> vertices;          ///< [m]
   std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise from outside
-  std::string uri;                         ///< its origin, for markers
+  std::string uri;                         ///< file that it was loaded from, for markers
   Vector3d scale = Vector3d::Ones();       ///< already applied to `vertices`
 
   /// Corner `k` of a triangle.
@@ -40,7 +40,8 @@ struct Shape {
   Geometry geometry;
   RigidTransform X_OS = RigidTransform::Identity();
   Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1.0);  ///< r, g, b, alpha in 0 … 1
-  bool color_given = false;  ///< by the scene; otherwise colours and textures of a mesh file come before `color`
+  bool color_given =
+      false;  ///< whether the scene sets `color`; otherwise the colours and textures of a mesh file take precedence
 };
 
 }  // namespace spring_workbench::geometry

@@ -7,18 +7,18 @@
 
 namespace spring_workbench::hand_input {
 
-/// Keeps a hand that only trembles at rest. A hand that stays within `dead_band_distance` and `dead_band_angle` of one
-/// pose for 0.3 s rests: the followed pose is bit-identical from then on, until the tracked one is farther from it than
-/// that. Then it is dragged along at that distance, which shrinks with a time constant of 0.1 s. The followed pose is
-/// therefore never farther than the band from the tracked one, does not jump, and is the tracked one during motion. A
-/// band of 0 for position or rotation leaves it unfiltered.
+/// Suppresses the tremor of a hand at rest. A hand that stays within `dead_band_distance` and `dead_band_angle` of one
+/// pose for 0.3 s counts as at rest: the followed pose then stays constant (bit-identical) until the tracked pose is
+/// farther away than that. The followed pose is then dragged along at that distance, which decays with a time constant
+/// of 0.1 s. So it is never farther than the band from the tracked pose, does not jump, and equals the tracked pose
+/// during motion. A band of 0 for position or rotation leaves it unfiltered.
 class DeadBand {
  public:
   explicit DeadBand(const InputSettings& settings) : settings_(settings) {}
 
-  /// The next sample (later than the last one): its pose as followed, its stamp as it is.
+  /// Returns the next sample (later than the last one) with the followed pose and unchanged stamp.
   motion::PoseSample filter(const motion::PoseSample& sample);
-  /// The next sample is followed exactly.
+  /// Restarts the filter: the next sample is followed exactly.
   void restart() { followed_.reset(); }
 
  private:
@@ -27,9 +27,9 @@ class DeadBand {
 
   InputSettings settings_;
   std::optional<motion::PoseSample> followed_;
-  motion::PoseSample still_;  ///< the pose that the hand has been at, and since when
+  motion::PoseSample still_;  ///< pose near which the hand has stayed, and the time since when it has
   bool rests_ = false;
-  double play_ = 0.0;  ///< of the dragged pose: fraction of the band
+  double play_ = 0.0;  ///< distance of the dragged pose from the tracked one, as a fraction of the band
 };
 
 }  // namespace spring_workbench::hand_input

@@ -18,13 +18,13 @@ namespace spring_workbench::hand_input {
 /// the same time, give a bit-identical future.
 struct Accepted {
   enum class Kind {
-    pose,         ///< pose of the handle at time `t`, as it is followed
+    pose,         ///< pose of the handle at time `t`, after filtering
     button_down,  ///< the grasp button went down at time `t`
     button_up,
     next_tool,  ///< the second button went down at time `t`
     lost,       ///< the hand was lost and releases its object at time `t`
     rest,       ///< no input: all hands are at rest until time `t`
-    clutch_on,  ///< at time `t`
+    clutch_on,  ///< the clutch button went down at time `t`
     clutch_off,
     external_wrench,
   };
@@ -35,15 +35,16 @@ struct Accepted {
   Kind kind = Kind::rest;
   std::size_t hand = 0;
   double t = 0.0;                                               ///< [s]
-  RigidTransform X_WH = RigidTransform::Identity();             ///< of a pose
-  motion::ExternalWrench wrench;                                ///< of an external wrench, which is of the time `t`
-  double committed = -std::numeric_limits<double>::infinity();  ///< simulated time when it was given [s];
+  RigidTransform X_WH = RigidTransform::Identity();             ///< for `pose`
+  motion::ExternalWrench wrench;                                ///< for `external_wrench`, measured at time `t`
+  double committed = -std::numeric_limits<double>::infinity();  ///< simulated time at which the input was given [s];
                                                                 ///< −infinity before the first advance
 };
 
-/// Input of all hands to a simulation, live and offline. Each hand passes gate, smoothing and re-acquisition. For
-/// callers with a clock, its playout clock determines up to which time its input is complete. Hands are numbered as in
-/// Simulation; times are simulated [s]. There is no thread, log or ROS: the same calls give bit-identical results.
+/// Input of all hands to a simulation, live and offline. The samples of each hand pass the outlier gate, smoothing and
+/// re-acquisition. For callers with a clock, the hand's playout clock determines up to which time its input is
+/// complete. Hands are numbered as in Simulation; times are simulated times [s]. There is no thread, log or ROS: the
+/// same calls give bit-identical results.
 class Feed {
  public:
   /// Feeds `simulation`, which must outlive it.
@@ -55,7 +56,7 @@ class Feed {
   GateResult push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
                          std::size_t hand = 0);
   /// Reports the arrival of a sample that is not used, so that the hand does not count as silent.
-  void heard(const LocalTime& arrival, std::size_t hand);
+  void report_arrival(const LocalTime& arrival, std::size_t hand);
   /// Adds a pose of the handle in the world, from a motion whose samples need no clock. It is pushed bit-identically if
   /// smoothing is off and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
@@ -83,14 +84,14 @@ class Feed {
   /// later than its newest sample.
   void predict(double t, simulation::Simulation& copy) const;
   /// Returns the time since the newest sample of any hand arrived [s].
-  double waited(const LocalTime& now) const;
+  double time_since_arrival(const LocalTime& now) const;
   /// Sets the function that is called with every input of the simulation; empty: nothing is recorded.
   void record(std::function<void(const Accepted&)> record) { record_ = std::move(record); }
 
   /// Forgets the hands, after the simulation was reset or changed: the next sample is a first one. Gates and counts
   /// stay.
   void restart();
-  /// Forgets the samples that the gate has seen of one hand, for a time jump; keeps the counts.
+  /// Forgets the samples of one hand in its gate, after a time jump; keeps the counts.
   void restart_gate(std::size_t hand);
 
   const GateCounts& gate_counts(std::size_t hand) const;

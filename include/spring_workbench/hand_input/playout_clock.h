@@ -21,20 +21,20 @@ class PlayoutClock {
 
   /// Reports the arrival of a sample with stamp `t` [s].
   void sample(double t, const LocalTime& arrival);
-  /// Reports the arrival of a sample that is not used.
-  void heard(const LocalTime& arrival) { arrival_ = arrival; }
+  /// Reports the arrival of a sample that is dropped.
+  void report_arrival(const LocalTime& arrival) { arrival_ = arrival; }
   /// Reports that the buttons are known up to `t` [s].
   void buttons(double t, const LocalTime& arrival);
   /// Returns the time up to which the input is complete [s]: −infinity before the second sample, infinity while the
   /// hand is silent.
-  double known_until(const LocalTime& now) const;
-  /// Returns the time of a silent hand by the local clock, one sample interval behind, as its samples were [s];
-  /// −infinity before the first sample.
+  double complete_until(const LocalTime& now) const;
+  /// Returns the time [s] up to which a silent hand is known to rest: local time less one sample interval, because its
+  /// samples were that far behind, too; −infinity before the first sample.
   double rests_until(const LocalTime& now) const;
-  /// The stamp of the newest sample, and the time since it arrived [s].
+  /// Stamp of the newest sample [s], and time since the last arrival [s].
   double newest() const { return newest_; }
-  double waited(const LocalTime& now) const;
-  /// Forgets all samples, and all of the buttons except that button messages exist.
+  double time_since_arrival(const LocalTime& now) const;
+  /// Forgets all samples and the state of the buttons, but remembers whether button messages have ever arrived.
   void clear();
 
  private:

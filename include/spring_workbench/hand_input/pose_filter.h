@@ -5,15 +5,15 @@
 
 namespace spring_workbench::hand_input {
 
-/// Takes jitter out of a pose, if the settings ask for it.
-/// The One Euro filter (Casiez, Roussel, Vogel, CHI 2012): a first-order low-pass whose cut-off grows with the speed,
-/// `f_c = min_cutoff + beta |v|`, so that a hand at rest does not tremble and a quick one does not lag. Position is
-/// filtered by components with the length of the velocity, rotation along the shortest arc with the turn rate.
+/// Removes jitter from a pose, if enabled in the settings, by the One Euro filter (Casiez, Roussel, Vogel, CHI 2012): a
+/// first-order low-pass whose cut-off increases with speed, `f_c = min_cutoff + beta |v|`, so that a hand at rest does
+/// not tremble and a fast one does not lag. Position is filtered by component, with the norm of the velocity; rotation
+/// along the shortest arc, with the turn rate.
 class PoseFilter {
  public:
   explicit PoseFilter(const InputSettings& settings) : settings_(settings) {}
 
-  /// The next sample (later than the last one): its pose as filtered, its stamp as it is.
+  /// Returns the next sample (later than the last one) with filtered pose and unchanged stamp.
   motion::PoseSample filter(const motion::PoseSample& sample);
   /// The next sample starts the filter again.
   void restart() { running_ = false; }

@@ -9,7 +9,7 @@
 
 namespace spring_workbench::hand_input {
 
-/// Sample as received, not checked yet.
+/// A sample as received, before any check.
 struct RawSample {
   double t = 0.0;                           ///< stamp [s]
   Vector3d p = Vector3d::Zero();            ///< origin of the tracked frame, in the tracker's frame [m]
@@ -36,8 +36,8 @@ std::string to_string(GateResult result);
 /// Returns what is wrong with a rejected sample: field, rule and value.
 std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings);
 
-/// Checks whether a sample is a pose within reach, regardless of earlier samples: accepted, not_finite, bad_quaternion
-/// or too_far.
+/// Checks whether a sample is a valid pose within range, regardless of earlier samples: accepted, not_finite,
+/// bad_quaternion or too_far.
 GateResult check_pose(const RawSample& sample, const InputSettings& settings);
 
 /// Counts of the results of one gate.
@@ -49,9 +49,10 @@ struct GateCounts {
   std::map<GateResult, std::size_t> rejected;
 };
 
-/// Accepts the samples of one station that a hand can have made. A sample too far from the last accepted one for the
-/// time between them is rejected; once `accept_after` consecutive samples agree with each other, the new position is
-/// accepted. The time between samples counts as `dropout_after` at most, so that a long gap does not admit everything.
+/// Outlier gate for the samples of one station: accepts only motions that a hand can make. A sample that is too far
+/// from the last accepted one for the time between them is rejected; once `accept_after` consecutive samples agree with
+/// each other, the new position is accepted as a relocation. The time between samples counts as at most
+/// `dropout_after`, so that a long gap does not admit everything.
 class SampleGate {
  public:
   /// `dropout_after` [s], > 0: a longer gap is a dropout, and the next sample a relocation.
@@ -67,7 +68,8 @@ class SampleGate {
   GateResult judge_move(const RawSample& from, const RawSample& to) const;
   bool is_out_of_view(const RawSample& sample) const;
   bool confirmed(const RawSample& sample);
-  /// Returns whether a sample is within reach only because time has passed, at a position that was out of reach before.
+  /// Returns whether a sample is within the limits only because time has passed, at a position that was rejected
+  /// before.
   bool is_from_candidate(const RawSample& sample) const;
   GateResult accept(const RawSample& sample, bool jumped);
 
@@ -77,7 +79,7 @@ class SampleGate {
   std::optional<RawSample> newest_;     ///< accepted
   double interval_ = 0.0;               ///< between accepted samples, smoothed [s]
   std::optional<RawSample> candidate_;  ///< the newest sample that was too far away
-  int in_a_row_ = 0;                    ///< samples up to `candidate_` that agree with each other
+  int agreeing_samples_ = 0;            ///< samples up to `candidate_` that agree with each other
 };
 
 }  // namespace spring_workbench::hand_input

@@ -10,19 +10,19 @@
 
 namespace spring_workbench::instruments {
 
-/// Averages a tool's weight and torque over the last second in which it carried one thing. The uncertainty is that of
-/// the mean of parts of a tenth of a second each, so that what swings faster does not make it seem better known. While
-/// the probe touches one thing, it identifies that thing's material.
+/// Averages a tool's weight and torque over the last second, as long as it carries the same object. The uncertainty is
+/// the standard error over intervals of a tenth of a second, so faster oscillations do not make it too small. While the
+/// probe touches one body, it also identifies that body's material.
 class ReadingAverage {
  public:
-  /// Adds the tool's readings at time `t` [s], and fills in their averages; until the first part is complete, the
-  /// present reading with an unknown uncertainty. A time before the last one, or another object, starts a new average.
-  /// `X_WT`: of the object that the probe touches, if it is one that can move.
+  /// Adds the tool's readings at time `t` [s] and fills in their averages; until the first interval is complete, these
+  /// are the present readings with unknown uncertainty. A time before the last one, or another object, starts a new
+  /// average. `X_WT`: pose of the touched object, if it is movable.
   void take(double t, tools::ToolState& tool, const RigidTransform& X_WT = RigidTransform::Identity());
-  /// Fills in the averages of what was taken last, if `tool` carries or touches the same; otherwise its own reading
-  /// with an unknown uncertainty.
+  /// Fills in the latest averages if `tool` carries or touches the same object; otherwise its own readings with unknown
+  /// uncertainty.
   void fill_in(tools::ToolState& tool) const;
-  /// Returns what the present touch of the probe shows; none without one.
+  /// Returns the material estimate of the present touch of the probe; none if it touches nothing.
   const std::optional<MaterialReading>& material() const { return material_; }
   std::vector<MaterialEstimate::CurvePoint> force_over_depth() const {
     return touch_ ? touch_->estimate.curve() : std::vector<MaterialEstimate::CurvePoint>();
@@ -40,10 +40,10 @@ class ReadingAverage {
     double t;
     std::string touched;
     double probe_stiffness;
-    Vector3d axis_T;  ///< of the probe, as the touch began
+    Vector3d axis_T;  ///< axis of the probe at the start of the touch
     MaterialEstimate estimate;
   };
-  void take_down(double t, const tools::ToolState& tool);
+  void record_instant(double t, const tools::ToolState& tool);
   void touch(double t, const tools::ToolState& tool, const RigidTransform& X_WT);
   tools::Reading average(double Part::*integral, double present) const;
 

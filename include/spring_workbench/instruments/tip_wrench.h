@@ -9,16 +9,16 @@
 
 namespace spring_workbench::instruments {
 
-/// What a machine measures on what the tool holds: at the tip, world axes, in virtual units.
+/// Converts the wrench that a machine measured on the held object: at the tip, world axes, in virtual units.
 inline Wrench measured_at_tip(const motion::ExternalWrench& measured, const tools::ToolState& tool) {
   const bool of_tip = measured.axes == motion::ExternalWrench::Axes::tip;
   const Matrix3d R = tool.force_scale * (of_tip ? Matrix3d(tool.X_WE.linear()) : Matrix3d(Matrix3d::Identity()));
   return {R * measured.wrench.force, R * measured.wrench.moment};
 }
 
-/// What a tool may do at its tip of what it does, world axes, where that is more than its limit: the force cut down to
-/// its limit, and the moment in the same proportion and to its own.
-inline std::optional<Wrench> cut_down(const tools::LimitSettings& limit, const tools::ToolState& tool) {
+/// The wrench at a tool's tip reduced to its limits, world axes, if it exceeds them: the force is scaled to its limit,
+/// and the moment by the same factor and further to its own limit. None if the wrench is within the limits.
+inline std::optional<Wrench> limited_wrench(const tools::LimitSettings& limit, const tools::ToolState& tool) {
   const auto& [force, moment] = tool.tip_wrench_W;
   const double of_force = std::min(limit.force / force.norm(), 1.0);
   const double of_moment = std::min(limit.moment / moment.norm(), of_force);

@@ -7,13 +7,14 @@
 
 namespace spring_workbench::instruments {
 
-/// How strongly a hand should feel that what its tool holds strikes something or is jolted: from the impulse of
-/// contacts that begin and from the rate at which the force at the tip changes, both in real units. It dies away.
+/// Intensity of the vibration that signals impacts and jolts of the held object to the hand: computed from the impulse
+/// of new contacts and from the rate of change of the force at the tip, both in real units. It decays over time.
 class Vibration {
  public:
-  /// Adds the tool at time `t` [s]; `impulse`: of the contacts of what it holds that began since the last call, in
-  /// virtual units [N·s]. Returns the intensity, 0 … 1. A time before the last one, or another object, starts again.
-  double feel(double t, const tools::ToolState& tool, double impulse);
+  /// Adds the state of the tool at time `t` [s]. `impulse`: total impulse of the held object's contacts that began
+  /// since the last call, in virtual units [N·s]. Returns the intensity, 0 … 1. A time before the last one, or another
+  /// object, restarts it.
+  double update_intensity(double t, const tools::ToolState& tool, double impulse);
 
  private:
   struct Instant {

@@ -8,19 +8,19 @@
 
 namespace spring_workbench::live {
 
-/// What one thread has made and another one has not taken yet, in order, and no more than `most`: beyond that, the
-/// maker waits. Both threads lock the same mutex around each call.
+/// Bounded queue from one thread to another, first in, first out. The producer waits while `capacity` items are unread.
+/// Both threads lock the same mutex around each call.
 template <typename T>
 class Backlog {
  public:
-  explicit Backlog(std::size_t most) : most_(most) {}
-  /// Waits until there is room, without the lock.
+  explicit Backlog(std::size_t capacity) : capacity_(capacity) {}
+  /// Appends an item. Waits with the lock released until there is room.
   void put(T one, std::unique_lock<std::mutex>& lock) {
-    if (kept_.size() >= most_) ++waits_;
-    taken_.wait(lock, [this] { return kept_.size() < most_; });
+    if (kept_.size() >= capacity_) ++waits_;
+    taken_.wait(lock, [this] { return kept_.size() < capacity_; });
     kept_.push_back(std::move(one));
   }
-  /// Returns all.
+  /// Removes and returns all items.
   std::vector<T> take() {
     taken_.notify_one();
     return std::exchange(kept_, {});
@@ -30,7 +30,7 @@ class Backlog {
   std::size_t waits() const { return waits_; }
 
  private:
-  std::size_t most_, waits_ = 0;
+  std::size_t capacity_, waits_ = 0;
   std::condition_variable taken_;
   std::vector<T> kept_;
 };

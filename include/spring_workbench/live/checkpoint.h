@@ -9,15 +9,15 @@
 
 namespace spring_workbench::live {
 
-/// State from which a program continues when it is restarted after a crash, as text: the scene's path and the state
-/// of the simulation (simulation::serialise). One for each place where it is kept.
+/// State from which a program resumes after a crash, as text: the path of the scene and the state of the simulation
+/// (simulation::serialise). One instance for each place where it is stored.
 class Checkpoint {
  public:
-  /// `given_scene`: what the program was told to begin with. `runner` must outlive this.
+  /// `given_scene`: the scene that the program was started with. `runner` must outlive this object.
   Checkpoint(SimulationRunner& runner, std::string given_scene)
       : runner_(runner), given_scene_(std::move(given_scene)) {}
 
-  /// Calls `write(text)` if the state is not that of the last text. If `write` throws, the next call does it again.
+  /// Calls `write(text)` if the state has changed since the last text. If `write` throws, the next call tries again.
   template <typename Write>
   void keep(Write&& write) {
     std::optional<Kept> now = changed();
@@ -25,11 +25,11 @@ class Checkpoint {
     write(text_of(*now));
     kept_ = std::move(*now);
   }
-  /// The place is empty: the next keep() writes.
+  /// Call if the stored text was lost: the next keep() writes again.
   void forget() { kept_ = Kept(); }
 
-  /// Brings the runner to what the text says. Throws InputError with `where`, and changes nothing, if it is damaged or
-  /// of another given scene. `scene_roots`: as of load_scene().
+  /// Restores the runner from the text. Throws InputError with `where`, and changes nothing, if the text is damaged or
+  /// was written for another `given_scene`. `scene_roots`: as in load_scene().
   void resume(const std::string& text, const std::string& where, const std::vector<std::string>& scene_roots);
 
  private:
@@ -45,16 +45,16 @@ class Checkpoint {
   Kept kept_;
 };
 
-/// A text in a file that begins with a line of ours. A link, a folder, a FIFO or somebody else's file at its path is
-/// never read in full, replaced or removed. Each throws InputError with `checkpoint_file`, path and reason.
+/// A text file that begins with our own header line. A link, folder, FIFO or foreign file at its path is never read in
+/// full, replaced or removed. Each function throws InputError with `checkpoint_file`, path and reason.
 class CheckpointFile {
  public:
-  /// `path`: a relative one counts from the working folder (of roslaunch's nodes, ~/.ros).
+  /// A relative `path` is relative to the working directory (~/.ros for nodes started by roslaunch).
   explicit CheckpointFile(const std::string& path);
 
   /// The text; empty if there is no file.
   std::string read() const;
-  /// Replaces the whole file, or leaves it as it is; a file that is there is never cut short (config::OutputFile).
+  /// Replaces the file atomically (config::OutputFile).
   void write(const std::string& text) const;
   /// Renames the file to PATH.ignored, so that the next write() does not replace it.
   void set_aside() const;

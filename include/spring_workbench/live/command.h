@@ -17,7 +17,7 @@ struct Command {
   enum class Kind {
     none,         ///< no change, or one that cannot be repeated: only the state after it is known
     select_tool,  ///< select `tool` in `hand`, or else in each
-    settings,     ///< apply `of_fork` to `hand`, or else to all; if `of_dynamics` is set, both to all
+    settings,     ///< apply `fork_change` to `hand`, or else to all; if `dynamics_change` is set, both to all
     calibrate,    ///< calibrate `hand`, or else all hands
     release,      ///< release what `hand`, or else each hand, holds
     clutch,       ///< set the clutch of `hand`, or else of all, to `on`
@@ -31,30 +31,30 @@ struct Command {
   std::optional<std::size_t> hand;
   tools::Tool tool = tools::Tool::spring_fork;
   bool on = false;
-  simulation::ForkChange of_fork;
-  simulation::DynamicsChange of_dynamics;
+  simulation::ForkChange fork_change;
+  simulation::DynamicsChange dynamics_change;
   std::map<std::string, RigidTransform> places;
   simulation::ObjectEdit edit;
-  std::vector<std::string> roots;  ///< folders for the edit's URDF; none if the change is repeated
+  std::vector<std::string> roots;  ///< folders that the edit's URDF may be in; empty if the change is repeated
 
-  /// Returns the command as numbers; none for Kind::none.
+  /// Returns the command encoded as numbers; empty for Kind::none.
   std::vector<std::uint64_t> words() const;
-  /// Returns the command that words() wrote. Throws InputError if `words` are no command.
+  /// Decodes the result of words(). Throws InputError if `words` do not encode a command.
   static Command from(const std::vector<std::uint64_t>& words);
 
  private:
   void exchange(math::StateArchive& state);
 };
 
-/// Makes a change of any kind but `none`, `load_scene` and `undo`. Throws InputError, and changes nothing, if that is
+/// Makes a change of any kind except `none`, `load_scene` and `undo`. Throws InputError, and changes nothing, if it is
 /// impossible.
 simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation);
 
 /// Returns the fork settings of each hand.
 std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation);
 
-/// Makes a simulation of a scene in which each hand has its fork of `forks`; forks that are calibrated to the world get
-/// the scene's stiffness. Throws InputError if the settings do not fit the scene.
+/// Makes a simulation of a scene in which each hand has its fork from `forks`; forks that are calibrated to the world
+/// get the scene's stiffness. Throws InputError if settings and scene do not match.
 simulation::Simulation make_simulation(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                        const std::vector<rod::ForkSettings>& forks);
 

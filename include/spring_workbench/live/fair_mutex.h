@@ -6,19 +6,19 @@
 
 namespace spring_workbench::live {
 
-/// Mutex that threads get in the order in which they ask for it: a thread that locks it again and again makes no other
-/// thread wait for more than one turn.
+/// Mutex that is granted in the order of requests (a ticket lock), so a thread that locks it repeatedly cannot starve
+/// the others.
 class FairMutex {
  public:
   void lock() {
     std::unique_lock<std::mutex> lock(mutex_);
-    const std::size_t turn = asked_++;
-    next_.wait(lock, [&] { return turn == turn_; });
+    const std::size_t ticket = next_ticket_++;
+    next_.wait(lock, [&] { return ticket == now_serving_; });
   }
   void unlock() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      ++turn_;
+      ++now_serving_;
     }
     next_.notify_all();
   }
@@ -26,7 +26,7 @@ class FairMutex {
  private:
   std::mutex mutex_;
   std::condition_variable next_;
-  std::size_t asked_ = 0, turn_ = 0;
+  std::size_t next_ticket_ = 0, now_serving_ = 0;
 };
 
 }  // namespace spring_workbench::live

@@ -13,7 +13,7 @@ namespace spring_workbench::live {
 /// of the first hand.
 class HandTimes {
  public:
-  /// `hands`: how many; `simulated_time`: whether the clock is a simulated one. If so, a hand whose epoch lies clearly
+  /// `hands`: number of hands; `simulated_time`: whether the clock is simulated. If so, a hand whose epoch is clearly
   /// before the present simulation time belongs to another run and does not join; on the wall clock every hand joins.
   HandTimes(std::size_t hands, bool simulated_time) : simulated_time_(simulated_time), shifts_(hands) {}
 
@@ -27,7 +27,7 @@ class HandTimes {
   bool knows(std::size_t hand) const { return shifts_.at(hand).has_value(); }
   /// Converts a hand's time `t` [s] to simulation time [s].
   double time_of(std::size_t hand, double t) const { return t + shifts_.at(hand).value_or(0.0); }
-  /// Skips `seconds` [s] of all hands' time, which are not simulated.
+  /// Skips `seconds` [s] of all hands' time; this time is not simulated.
   void skip(double seconds);
   /// Returns the time skipped since the last call [s].
   double take_skipped() { return std::exchange(skipped_, 0.0); }

@@ -6,19 +6,20 @@
 
 namespace spring_workbench::live {
 
-/// What came and was not taken yet, in order, and no more than `most`: a loop that stands does not fill the memory.
+/// Bounded queue of input, first in, first out, for one consumer. Its limit `capacity` keeps a stalled consumer from
+/// exhausting memory.
 template <typename T>
 class Inbox {
  public:
-  explicit Inbox(std::size_t most) : most_(most) {}
-  /// Whether something has to be refused before more is put in.
-  bool is_full() const { return kept_.size() >= most_; }
+  explicit Inbox(std::size_t capacity) : capacity_(capacity) {}
+  /// Whether the limit is reached. If so, the caller must reject input instead of calling put().
+  bool is_full() const { return kept_.size() >= capacity_; }
   void put(T one) { kept_.push_back(std::move(one)); }
-  /// Returns all.
+  /// Removes and returns all items.
   std::vector<T> take() { return std::exchange(kept_, {}); }
 
  private:
-  std::size_t most_;
+  std::size_t capacity_;
   std::vector<T> kept_;
 };
 

@@ -13,13 +13,15 @@
 
 namespace spring_workbench::live {
 
-/// Change of the committed simulation that does not come from a hand: a service, a panel, a time jump or another scene.
+/// A change of the committed simulation that does not come from a hand: a service call, a panel, a time jump or a new
+/// scene.
 struct Change {
-  std::string what;                   ///< name of the change, e.g. the service
-  Command command;                    ///< the change as a command, to be repeated in a replay
-  std::string scene;                  ///< path of the scene that the state belongs to
-  std::uint64_t hash_before = 0;      ///< of the state before the change
-  simulation::SimulationState state;  ///< state after the change; empty if nothing changed and only the hash is noted
+  std::string what;               ///< name of the change, e.g. the service
+  Command command;                ///< the change as a command, to be repeated in a replay
+  std::string scene;              ///< path of the scene that the state belongs to
+  std::uint64_t hash_before = 0;  ///< of the state before the change
+  simulation::SimulationState
+      state;  ///< state after the change; empty if nothing changed and only the hash is recorded
 };
 
 /// Returns an entry that changes nothing and only records the hash of the present state.
@@ -28,26 +30,26 @@ Change comparison_of(const simulation::Simulation& simulation);
 /// Entry of the journal of a live run. Entries are numbered without a gap.
 struct Entry {
   std::uint64_t index = 0;
-  double committed = 0.0;             ///< simulated time reached before it [s]; −infinity before the simulation began
-  std::optional<std::int64_t> stamp;  ///< of its time, by the clock of then [ns]; none before the first sample
+  double committed = 0.0;  ///< simulated time reached before it [s]; −infinity before the simulation began
+  std::optional<std::int64_t>
+      stamp;  ///< stamp of its time, by the clock at that moment [ns]; none before the first sample
   std::variant<hand_input::Accepted, Change> what;
 };
 
-/// Counts of the changes of a journal after the first one.
+/// Counts over the changes of a journal after the first one.
 struct ReplayedChanges {
   std::size_t made_again = 0;
-  std::size_t given = 0;  ///< changes of which only the state after them is known
-  std::vector<std::string>
-      mismatches;  ///< changes that led to another state than the recorded one when they were repeated
+  std::size_t given = 0;                ///< changes that cannot be repeated: the recorded state is restored
+  std::vector<std::string> mismatches;  ///< changes that did not lead to the recorded state when they were repeated
 };
 
-/// Numbers entries, and keeps them until they are taken.
+/// Numbers entries and stores them until they are taken.
 class Journal {
  public:
   void note(double committed, std::optional<std::int64_t> stamp, std::variant<hand_input::Accepted, Change> what) {
     entries_.push_back({next_++, committed, stamp, std::move(what)});
   }
-  /// The entries since the last call.
+  /// Returns the entries since the last call.
   std::vector<Entry> take() { return std::exchange(entries_, {}); }
 
  private:
@@ -55,15 +57,14 @@ class Journal {
   std::vector<Entry> entries_;
 };
 
-/// Replays a journal: it starts from the state of the first change, gives each entry to its own simulation when that
-/// has reached the time of the entry, and makes each change again. The simulation is then bit-identical to the
-/// committed one.
+/// Replays a journal with a simulation of its own: starts from the state of the first change, advances to the time of
+/// each entry, applies its input or repeats its change. The simulation is then bit-identical to the committed one.
 class Replayer {
  public:
   using AtStop = std::function<void(simulation::Simulation&, const simulation::AdvanceReport&)>;
 
-  /// `load_scene(path)` loads a scene; `settings`: those with which the live run began, whose
-  /// number of styluses is taken from the journal.
+  /// `load_scene(path)` loads a scene; `settings`: those of the live run at its start, except for the number of
+  /// styluses, which is taken from the journal.
   Replayer(std::function<scene::Scene(const std::string&)> load_scene, simulation::SimulationSettings settings)
       : load_scene_(std::move(load_scene)), settings_(std::move(settings)) {}
 
@@ -78,7 +79,7 @@ class Replayer {
   const ReplayedChanges& changes() const { return changes_; }
 
  private:
-  void go_to(double t, const AtStop& at_stop);
+  void advance_to_entry(double t, const AtStop& at_stop);
   void apply(const hand_input::Accepted& accepted);
   void apply(const Change& change);
   bool make_again(const Change& change);

@@ -19,21 +19,21 @@ struct PredictionError {
   double angle = 0.0;     ///< [rad]
 };
 
-/// The displayed state: a copy of the committed simulation, advanced to the newest sample of the hands, or further, to
-/// where they are predicted to be. It only reads the committed simulation.
+/// The displayed state: a copy of the committed simulation that is advanced to the newest sample of the hands, or
+/// beyond it along their predicted motion. It only reads the committed simulation.
 class LookAhead {
  public:
-  /// `scene`, `settings`: those of the committed simulation.
+  /// `scene`, `settings`: of the committed simulation.
   LookAhead(const scene::Scene& scene, const simulation::SimulationSettings& settings) : copy_(scene, settings) {}
 
   /// Restores the copy from `committed` and advances it to time `t` [s]. `feed`: the feed of `committed`.
   void show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t);
-  /// Advances the copy to the newest sample and `horizon` [s] beyond it, but never back, and no further than
-  /// `committed` if `pace` says that this takes too long. Returns how far the copy is beyond the newest sample [s].
+  /// Advances the copy to `horizon` [s] beyond the newest sample; never back, and no further than `committed` if `pace`
+  /// expects that to take too long. Returns the time of the copy beyond the newest sample [s].
   double show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
                      const Pace& pace);
   const simulation::Simulation& shown() const { return copy_; }
-  /// Whether the copy has followed the committed simulation since the last restart(): before, it may have other
+  /// Whether the copy has followed the committed simulation since the last restart(). If not, it may contain other
   /// objects.
   bool has_followed() const { return has_followed_; }
 
@@ -53,7 +53,7 @@ class LookAhead {
     motion::PoseSample at;
     Twist V_WO_W;
   };
-  /// The held objects of one simulation. It looks at those that have changed since it looked last.
+  /// The held objects of one simulation. Checks only the objects that have changed since the last call.
   class HeldObjects {
    public:
     std::vector<Held> of(const simulation::Simulation& simulation);
@@ -68,7 +68,7 @@ class LookAhead {
   bool has_followed_ = false;
   double shown_until_ = -std::numeric_limits<double>::infinity();  ///< [s]
   std::deque<Held> shown_;
-  std::vector<Held> before_;  ///< where the committed simulation was at the last comparison
+  std::vector<Held> before_;  ///< held objects of the committed simulation at the last comparison
   std::deque<double> errors_;
 };
 

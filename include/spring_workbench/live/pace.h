@@ -4,19 +4,19 @@
 
 namespace spring_workbench::live {
 
-/// Measures how much processor time the simulation needs and whether it keeps up with the hands. While it is behind,
-/// simulated time is slower than that of the hands, and no sample is accepted until all accepted ones are simulated.
+/// Measures how much time the simulation takes and whether it keeps up with the hands. While it is behind, simulated
+/// time runs slower than the hands' time, and no new sample is accepted until all accepted ones have been simulated.
 class Pace {
  public:
-  /// Reports a commit that simulated `simulated` [s] and took `took` [s] of the steady clock. `lag`: the time from
-  /// there to the newest sample that is still to be simulated [s].
+  /// Reports a commit that simulated `simulated` [s] and took `took` [s] by the steady clock. `lag`: time from the
+  /// committed time to the newest sample not simulated yet [s].
   void committed(double simulated, double took, double lag);
-  /// Reports that all accepted samples are simulated.
+  /// Reports that all accepted samples have been simulated.
   void caught_up() { behind_ = false; }
   bool is_behind() const { return behind_; }
   /// Returns the time [s] that it takes to simulate `time` [s].
   double work(double time) const { return cost_ * time; }
-  /// Returns whether there is also time for a copy to advance by `time` [s].
+  /// Returns whether there is enough time to advance a copy by `time` [s] as well.
   bool can_look_ahead(double time) const;
 
  private:
@@ -24,14 +24,13 @@ class Pace {
   bool behind_ = false;
 };
 
-/// Says when to show what is ahead of the committed simulation although there is more to commit: once in `period`, but
-/// no more than half of the time is spent on it. A look ahead is the longer, the further behind the committed
-/// simulation is; so this catches up.
+/// Schedules updates of the display while there is more to commit: once per `period`, but with at most half of the
+/// time. An update takes the longer the further the committed simulation is behind, so this bound lets it catch up.
 class ShowTimes {
  public:
   explicit ShowTimes(double period) : period_(period) {}
   bool due(double now) const { return now >= next_; }
-  /// Reports that what is shown was made from `began` to `ended` [s].
+  /// Reports that an update of the display was computed from `began` to `ended` [s].
   void shown(double began, double ended) { next_ = ended + std::max(period_, ended - began); }
 
  private:

@@ -8,15 +8,15 @@
 
 namespace spring_workbench::live {
 
-/// The states of a simulation's movable objects at one moment: a value, whose parts of 32 objects are shared with the
-/// values from before in which they were the same. So it costs as much as has changed, and who has looked at one before
-/// need not look at the same part again.
+/// The states of a simulation's movable objects at one moment, as a value. It consists of blocks of 32 objects, and
+/// unchanged blocks are shared with earlier values. So the cost of an update depends only on what has changed, and a
+/// reader can skip the blocks that it already knows.
 class SharedStates {
  public:
   using Part = std::vector<bodies::BodyState>;
   using Parts = std::vector<std::shared_ptr<const Part>>;
 
-  /// Takes over what has changed since the last call.
+  /// Copies what has changed in the simulation since the last call.
   void follow(const simulation::Simulation& simulation);
 
   std::size_t size() const { return size_; }
@@ -24,15 +24,15 @@ class SharedStates {
   const bodies::BodyState& operator[](std::size_t object) const {
     return (*parts()[object / part_size])[object % part_size];
   }
-  /// All parts have the same number of objects, but the last.
+  /// All parts but the last have the same number of objects.
   const Parts& parts() const { return *parts_; }
-  /// Whether a part is that of `other`, in which nothing has changed.
+  /// Whether a part is shared with `other`, so that nothing in it differs.
   bool shares(std::size_t part, const SharedStates& other) const {
     return part < other.parts().size() && parts()[part] == other.parts()[part];
   }
   /// Index of the first object of a part.
   static std::size_t begin_of(std::size_t part) { return part * part_size; }
-  /// The part that an object is in.
+  /// Index of the part that contains an object.
   static std::size_t part_of(std::size_t object) { return object / part_size; }
 
   class Iterator {
@@ -58,7 +58,7 @@ class SharedStates {
 
   std::shared_ptr<const Parts> parts_ = std::make_shared<Parts>();  ///< shared by copies
   std::size_t size_ = 0;
-  bodies::Changes::Moment at_;  ///< in the simulation that it follows
+  bodies::Changes::Moment at_;  ///< moment of the simulation up to which it follows
 };
 
 }  // namespace spring_workbench::live

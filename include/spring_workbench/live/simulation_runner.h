@@ -26,12 +26,12 @@
 
 namespace spring_workbench::live {
 
-/// Where the committed simulation is.
+/// Progress of the committed simulation.
 struct Moment {
-  bool has_sample = false;   ///< one has arrived since the start
-  bool began = false;        ///< the simulation has come to it
-  std::int64_t stamp = 0;    ///< of the simulated time reached [ns]; means nothing before
-  std::size_t revision = 0;  ///< grows with every change of the committed simulation
+  bool has_sample = false;   ///< a sample has arrived since the start
+  bool began = false;        ///< the simulation has reached the first sample
+  std::int64_t stamp = 0;    ///< stamp of the simulated time reached [ns]; meaningless before `began`
+  std::size_t revision = 0;  ///< increases with every change of the committed simulation
 };
 
 /// A simulation at one moment.
@@ -40,28 +40,28 @@ struct Snapshot {
   View view;
 };
 
-/// The committed simulation, and the task as it stood then.
+/// The committed simulation and the state of the task at that moment.
 struct Committed : Snapshot {
   std::vector<assembly::Placement> placements;
   assembly::TaskScore score;
 };
 
-/// What is displayed; the stamp is that of the displayed time.
+/// The displayed simulation; the stamp is that of the displayed time.
 struct Shown : Snapshot {
-  double horizon = 0.0;  ///< how far it is beyond the newest sample [s]
+  double horizon = 0.0;  ///< time beyond the newest sample [s]
 };
 
-/// Whether a snapshot of this moment is wanted.
+/// Decides whether a snapshot of this moment is needed.
 using Wanted = std::function<bool(const Moment&)>;
 
 /// Report of one cycle of the physics loop.
 struct CycleReport {
   simulation::AdvanceReport advance;
   double wall_time = 0.0;                           ///< [s], by the steady clock
-  bool behind = false;                              ///< simulation is slower than the hands: samples are dropped
-  double time_skipped = 0.0;                        ///< time that is skipped because the hands' time jumped [s]
+  bool behind = false;                              ///< the simulation is slower than the hands: samples are dropped
+  double time_skipped = 0.0;                        ///< time skipped because the hands' clock jumped [s]
   bool more = false;                                ///< more can be committed at once: call `cycle` again
-  PredictionError prediction;                       ///< error of what was displayed for the time that is now committed
+  PredictionError prediction;                       ///< error of the display for the time that is now committed
   double input_age = 0.0;                           ///< age of the newest sample by its stamp [s]
   std::vector<std::vector<RejectedPose>> rejected;  ///< poses of each hand that the gate rejected
 };
@@ -78,7 +78,8 @@ struct HandStatistics {
 /// Input of one hand that SimulationRunner keeps.
 struct HandInput {
   HandInput(std::size_t number, double dropout_after) : hand(number), monitor(dropout_after) {}
-  /// Adds to the report what was rejected since the last call, how old the newest sample was, and whether more waits.
+  /// Adds to the report the poses rejected since the last call, the age of the newest sample, and whether events are
+  /// pending.
   void add_to(CycleReport& report);
   /// Records that a pose was used, at `t` [s].
   void used(double t, const StylusPose& pose);
@@ -86,15 +87,15 @@ struct HandInput {
   std::size_t hand;
   motion::StreamMonitor monitor;
   double newest_arrival = 0.0;         ///< see HandStatistics
-  double newest_age = 0.0;             ///< when it came, by its stamp [s]
+  double newest_age = 0.0;             ///< age of the newest sample on arrival, by its stamp [s]
   std::deque<StylusEvent> waiting;     ///< not fed yet
   std::vector<RejectedPose> rejected;  ///< not reported yet
 };
 
-/// Runs a live simulation: it owns the committed simulation and its feed, the lock that physics, services and
+/// Runs a live simulation. It owns the committed simulation and its feed, the lock that physics, services and
 /// publishers share, the displayed copy, the journal, and the epochs of the hands' clocks (times count from the epoch
-/// of the first stylus; another one joins it). Time is skipped if no sample arrives because the process was stopped, or
-/// if the hands' clock jumps by more than 5 s: everything stays where it is, and the hands are re-acquired. If the
+/// of the first stylus; other styluses join it). Time is skipped if no sample arrives because the process was stopped,
+/// or if the hands' clock jumps by more than 5 s: everything stays in place, and the hands are re-acquired. If the
 /// simulation cannot keep up, samples are dropped and simulated time slows down.
 class SimulationRunner {
  public:
@@ -110,14 +111,14 @@ class SimulationRunner {
   CycleReport cycle(const HandEvents& events, const hand_input::LocalTime& now);
 
   /// Advances the displayed copy to the newest sample; with `latency` > 0 [s], further by `latency` and by the local
-  /// time since that sample arrived. Returns what is displayed, if it is wanted.
+  /// time since that sample arrived. Returns a snapshot of the display, if it is wanted.
   std::optional<Shown> show(double latency, const hand_input::LocalTime& now, const Wanted& wanted);
-  /// Returns the committed simulation, if it is wanted.
+  /// Returns a snapshot of the committed simulation, if it is wanted.
   std::optional<Committed> committed(const Wanted& wanted) const;
 
   /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
   void restart();
-  /// Takes back the last edit or restart (Undo); the task restarts, as after an edit.
+  /// Undoes the last edit or restart (class Undo). The task restarts, as after an edit.
   std::string undo();
   /// Loads another scene with the present settings. Throws InputError, and keeps the old scene, if they do not match.
   void load(const scene::Scene& scene);
@@ -126,7 +127,7 @@ class SimulationRunner {
   /// the scene.
   void resume(const scene::Scene& scene, const simulation::SimulationState& state);
 
-  std::size_t hands() const { return inputs_.size(); }  ///< how many there are
+  std::size_t hands() const { return inputs_.size(); }  ///< number of hands
   /// Calls `use(const Simulation&)` with exclusive access to the simulation.
   template <typename Use>
   auto locked(Use&& use) const {
@@ -156,11 +157,11 @@ class SimulationRunner {
 
  private:
   using Lock = std::lock_guard<FairMutex>;
-  /// Encloses a change of the simulation: its destructor writes the state after the change to the journal.
-  class Noted {
+  /// Scope guard around a change of the simulation: its destructor writes the state after the change to the journal.
+  class RecordedChange {
    public:
-    Noted(SimulationRunner& runner, std::string what, Command command);
-    ~Noted();
+    RecordedChange(SimulationRunner& runner, std::string what, Command command);
+    ~RecordedChange();
 
    private:
     SimulationRunner& runner_;
@@ -192,12 +193,12 @@ class SimulationRunner {
   hand_input::Feed feed_;
   LookAhead ahead_;
   std::shared_ptr<const scene::Scene> scene_;
-  mutable SharedStates objects_, shown_objects_;  ///< in the last views
+  mutable SharedStates objects_, shown_objects_;  ///< states in the last views
   assembly::TaskMonitor task_;
   std::vector<HandInput> inputs_;
   bool simulated_time_;
   Pace pace_;
-  bool was_behind_ = false;  ///< and no sample has arrived since
+  bool was_behind_ = false;  ///< was behind at the last cycle, and no sample has arrived since
   HandTimes times_;
   std::map<std::string, RigidTransform> places_;  ///< of objects, for the first epoch
   Undo undo_;

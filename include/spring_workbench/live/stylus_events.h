@@ -32,14 +32,14 @@ struct StylusButton {
   double t = 0.0;
   motion::Press press = motion::Press::grasp;
 };
-/// Message about the buttons with stamp `t` [s]: they are known up to this time, whether or not one of them changed.
+/// A button message with stamp `t` [s] has arrived: the buttons are known up to this time, whether or not one changed.
 struct ButtonsKnown {
   double t = 0.0;
   hand_input::LocalTime arrival;
 };
-/// What a machine's force sensor measured on what the stylus holds.
+/// Measurement of a machine's force sensor on the object that the stylus holds.
 struct StylusWrench {
-  std::int64_t stamp = 0;         ///< when, in local time [ns]
+  std::int64_t stamp = 0;         ///< time of the measurement, in local time [ns]
   motion::ExternalWrench sample;  ///< without its time
 };
 using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown, StylusWrench>;

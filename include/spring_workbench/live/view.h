@@ -8,9 +8,9 @@
 
 namespace spring_workbench::live {
 
-/// What can be seen of a simulation at one moment: a value, for another thread to read while the simulation goes on.
+/// Snapshot of the visible state of a simulation: a value that another thread can read while the simulation continues.
 struct View {
-  std::shared_ptr<const scene::Scene> scene;  ///< shared by views between which it was not changed
+  std::shared_ptr<const scene::Scene> scene;  ///< shared between views until it changes
   simulation::SimulationSettings settings;
   double time = 0.0, world_time = 0.0;          ///< see Simulation [s]
   SharedStates objects;                         ///< the movable objects, in the scene's order
@@ -27,7 +27,7 @@ struct View {
   }
 };
 
-/// `scene`: the simulation's present one; `objects`: of the view before, which follow.
+/// Makes a view. `scene`: the simulation's present scene; `objects`: those of the previous view, which are updated.
 View view_of(const simulation::Simulation& simulation, std::shared_ptr<const scene::Scene> scene,
              SharedStates& objects);
 

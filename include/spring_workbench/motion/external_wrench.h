@@ -8,18 +8,19 @@
 
 namespace spring_workbench::motion {
 
-/// The wrench of a sensor over time: each sample acts from its time on until the next one, but no longer than
-/// `timeout`: then it is zero (the watchdog).
+/// The wrench of a sensor over time. Each sample acts from its time until the next one, but for at most `timeout`; then
+/// the wrench is zero (watchdog).
 class WrenchTrack {
  public:
   /// `timeout` [s] > 0.
   explicit WrenchTrack(double timeout) : timeout_(timeout) {}
 
-  /// Adds a sample, which replaces those at the same or a later time that do not act yet. Throws as validate().
+  /// Adds a sample. It replaces pending samples at the same or a later time. Throws like validate().
   void push(const ExternalWrench& sample);
-  /// Goes to time `now` [s]; stamps `same_time` [s] apart are one. Returns whether the sample that acted has timed out.
+  /// Moves to time `now` [s]; stamps within `same_time` [s] of each other count as equal. Returns whether the acting
+  /// sample has timed out.
   bool follow(double now, double same_time);
-  /// The time after `now` at which the wrench changes; infinity where there is none.
+  /// The next time after `now` at which the wrench changes [s]; infinity if there is none.
   double next_edge(double now, double same_time) const;
   /// The wrench at the time of the last follow(); none if it is zero.
   const std::optional<ExternalWrench>& present() const { return present_; }

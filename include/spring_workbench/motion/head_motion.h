@@ -7,18 +7,18 @@
 
 namespace spring_workbench::motion {
 
-/// Predicts the pose of a tracked head at the time at which a picture that is drawn now will be seen.
+/// Predicts the pose of a tracked head for the moment at which a frame that is rendered now will be visible.
 class HeadMotion {
  public:
-  /// Returns the pose of the head in F at `latency` [s] from `now` [s, by the steady clock], predicted from the samples
-  /// given so far; without latency the newest sample. `X_FH`: the newest sample; it is a new one if its `stamp` [s]
-  /// differs from the last one's.
+  /// Returns the pose of the head in F, predicted from the samples so far for the time `latency` [s] after `now` [s,
+  /// steady clock]; with latency 0, the newest sample. `X_FH`: the newest sample, which is new if its `stamp` [s]
+  /// differs from the last one.
   RigidTransform follow(double stamp, const RigidTransform& X_FH, double now, double latency);
 
  private:
   PosePredictor predictor_;
   double stamp_ = -std::numeric_limits<double>::infinity();  ///< of the newest sample [s]
-  double received_at_ = 0.0;                                 ///< when it was given [s]
+  double received_at_ = 0.0;                                 ///< time at which it was given [s]
 };
 
 }  // namespace spring_workbench::motion

@@ -24,7 +24,7 @@ struct OwnAxesMotion {
   Vector3d alpha_B = Vector3d::Zero();            ///< [rad/s²]
 };
 
-/// Velocity and acceleration of a frame B in its own axes, at one moment or at several.
+/// Velocity and acceleration of a frame B in its own axes, at one time or at several (`S` a pack).
 template <typename S>
 struct FrameForcing {
   math::ThreeByThree<S> R_WB;
@@ -34,7 +34,7 @@ struct FrameForcing {
   math::Three<S> a_B;      ///< of the origin, less gravity [m/s²]
 };
 
-/// Motion of a frame: twice differentiable in time, over the requested times.
+/// Motion of a frame, twice differentiable over the requested times.
 class FrameMotion {
  public:
   virtual OwnAxesMotion in_own_axes(double t) const = 0;
@@ -53,11 +53,11 @@ struct PoseSample {
   void exchange(math::StateArchive& state) { state(t, X); }
 };
 
-/// The motion between two neighbouring samples: a cubic Hermite polynomial in position and in rotation vector from the
-/// velocities at both (see doc/model.md).
+/// The motion between two neighbouring samples: cubic Hermite interpolation of position and rotation vector, with given
+/// velocities at both ends (see doc/model.md).
 class MotionSegment final : public FrameMotion {
  public:
-  /// Rests at `X` from `begin` to `end` [s]; forever if they are not given.
+  /// At rest at `X` from `begin` to `end` [s]; by default forever.
   explicit MotionSegment(const RigidTransform& X, double begin = -std::numeric_limits<double>::infinity(),
                          double end = std::numeric_limits<double>::infinity());
   /// From sample `a` to sample `b` (`a.t < b.t`) with the velocities at both; linear part in world axes,
@@ -65,22 +65,22 @@ class MotionSegment final : public FrameMotion {
   MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vector3d& w_a_B, const PoseSample& b,
                 const Vector3d& v_b, const Vector3d& w_b_B);
 
-  /// The motion of a frame C that is fixed to this one, B, at `X_BC`.
+  /// The motion of a frame C that is fixed to this frame B at `X_BC`.
   MotionSegment of_frame(const RigidTransform& X_BC) const;
 
   double begin() const { return begin_; }  ///< [s]
   double end() const { return end_; }      ///< [s]; infinity for a frame at rest
-  /// State at time `t` [s], begin() ≤ t ≤ end().
+  /// Motion at time `t` [s], begin() ≤ t ≤ end().
   MotionState at(double t) const;
   OwnAxesMotion in_own_axes(double t) const override;
   FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override;
 
   void exchange(math::StateArchive& state) {
-    state(X_a_, begin_, end_, moving_, turning_, position_, rotation_, elsewhere_, X_BC_);
+    state(X_a_, begin_, end_, moving_, turning_, position_, rotation_, has_offset_, X_BC_);
   }
 
  private:
-  /// `u (c[0] + u (c[1] + …))` for u = 0 … 1 over the segment: what a vector adds to its value at the start.
+  /// `u (c[0] + u (c[1] + …))` for u = 0 … 1 over the segment: the change of a vector from its value at the start.
   struct Polynomial {
     std::array<Vector3d, 3> c{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}};
     void exchange(math::StateArchive& state) { state(c); }
@@ -117,9 +117,9 @@ class MotionSegment final : public FrameMotion {
   double end_;
   bool moving_;
   bool turning_ = false;
-  Polynomial position_;     ///< world axes [m]
-  Polynomial rotation_;     ///< rotation vector from the pose at the start, in its axes [rad]; where turning
-  bool elsewhere_ = false;  ///< the frame is not that of the samples, B, but C
+  Polynomial position_;      ///< world axes [m]
+  Polynomial rotation_;      ///< rotation vector from the pose at the start, in its axes [rad]; only if `turning_`
+  bool has_offset_ = false;  ///< the frame is C, not the frame B of the samples
   RigidTransform X_BC_ = RigidTransform::Identity();
 };
 

@@ -4,8 +4,8 @@
 
 namespace spring_workbench::motion {
 
-/// A pose that follows a goal which jumps (a dragged marker's, at the rate of its picture): towards it with
-/// a time constant, and never faster than a hand. It reaches a goal at rest and does not go beyond it.
+/// A pose that follows a goal that moves in jumps (e.g. a marker dragged at the frame rate of rviz): it approaches the
+/// goal with a time constant, and never faster than a hand. It comes to rest at the goal without overshoot.
 class PoseFollower {
  public:
   static constexpr double time_constant = 0.03;  ///< [s]
@@ -16,7 +16,7 @@ class PoseFollower {
 
   void set_goal(const RigidTransform& goal) { goal_ = goal; }
   const RigidTransform& goal() const { return goal_; }
-  /// The pose `dt` [s] ≥ 0 later.
+  /// Advances by `dt` [s] ≥ 0 and returns the pose.
   const RigidTransform& advance(double dt);
 
  private:

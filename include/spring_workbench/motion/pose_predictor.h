@@ -7,20 +7,21 @@
 
 namespace spring_workbench::motion {
 
-/// Predicts the pose of a tracked frame from its last samples: position and rotation vector continue along the parabola
-/// through the newest sample that fits those of the last 140 ms best, in the sense of least squares; of three samples
-/// or fewer, along the line.
+/// Predicts the pose of a tracked frame from its last samples: position and rotation vector are extrapolated along the
+/// parabola through the newest sample that fits the samples of the last 140 ms best (least squares); along a line if
+/// there are three or fewer.
 class PosePredictor {
  public:
-  static constexpr double farthest = 0.1;  ///< [s]; it rests beyond
+  static constexpr double farthest = 0.1;  ///< longest prediction [s]; beyond it, the frame is at rest
 
-  /// The next sample, later than the last one.
+  /// Adds a sample, later than the last one.
   void push(const PoseSample& sample);
-  /// Forgets all, after a jump, a dropout or a loss: the frame rests until the second sample that follows.
+  /// Forgets all samples, after a jump, a dropout or a loss. The prediction is then at rest until the second new
+  /// sample.
   void restart() { samples_.clear(); }
 
-  /// The frame at time `t` [s], or at the farthest time if that is sooner; nothing up to the newest sample, and where
-  /// there is none.
+  /// The predicted pose at time `t` [s], but at most `farthest` beyond the newest sample. Nothing if `t` is not later
+  /// than the newest sample, or if there is none.
   std::optional<PoseSample> predict(double t) const;
 
  private:

@@ -6,14 +6,13 @@
 
 namespace spring_workbench::motion {
 
-/// The samples of one tracked frame, interpolated so that the motion passes through each of them and is C¹.
-/// The velocity at a sample comes from it and its two neighbours (at an end of the motion: from the chord to the only
-/// one); it is fixed when the first segment that uses it is asked for, so that a live track, whose newest sample is an
-/// end, stays C¹ as well.
+/// The samples of one tracked frame and the C¹ motion that interpolates them. The velocity at a sample is computed from
+/// the sample and its two neighbours (at an end of the motion: from the chord to the only neighbour). It is fixed when
+/// the first segment that uses it is requested, so that a live track, whose newest sample is an end, stays C¹, too.
 class PoseTrack {
  public:
-  /// `dropout_after` [s]: a gap between samples longer than this holds the last pose at zero velocity until the next
-  /// sample, from whose pose the motion continues.
+  /// `dropout_after` [s]: after a gap between samples longer than this, the frame is at rest at the last pose until the
+  /// next sample, at whose pose the motion continues.
   explicit PoseTrack(double dropout_after = 0.5);
 
   /// Adds a sample. Returns false, and ignores it, if its stamp is not later than the newest one by at least half a
@@ -24,11 +23,11 @@ class PoseTrack {
   bool empty() const { return nodes_.empty(); }
   double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample still held [s]
   double end() const { return nodes_.back().sample.t; }     ///< time of the newest sample [s]
-  /// The segment that starts at or contains `t`, begin() ≤ t. At or after end(): at rest at the newest pose.
-  /// The reference is valid until the next call of a non-const function.
-  /// Throws std::logic_error when the track is empty or `t` lies before begin().
+  /// The segment that starts at or contains `t`, begin() ≤ t; at or after end(), at rest at the newest pose. The
+  /// reference is valid until the next call of a non-const function. Throws std::logic_error if the track is empty or
+  /// `t` is before begin().
   const MotionSegment& segment(double t);
-  /// The same without fixing a velocity: the motion as known so far.
+  /// The same without fixing velocities: the motion as known so far.
   MotionSegment provisional(double t) const;
   /// The pose at `t` as in provisional(); at a sample, exactly that of the sample.
   RigidTransform pose(double t) const;
@@ -57,7 +56,7 @@ class PoseTrack {
 
   double dropout_after_;
   std::deque<Node> nodes_;
-  MotionSegment current_;  ///< the segment asked for last
+  MotionSegment current_;  ///< the segment requested last
   bool current_valid_ = false;
 };
 

@@ -4,8 +4,8 @@
 
 namespace spring_workbench::motion {
 
-/// The proxy handle, which acts on the object and may lag behind the hand: offset · hand, in world (doc/model.md,
-/// "When the fork cannot follow").
+/// The proxy handle, on which the fork acts and which may lag behind the hand. Its pose is offset · hand, in world
+/// (doc/model.md, "When the fork cannot follow").
 class Proxy {
  public:
   bool behind() const { return behind_; }
@@ -16,15 +16,15 @@ class Proxy {
   /// Keeps the proxy at rest in world while the hand moves from `before` to `now`.
   void rest(const RigidTransform& before, const MotionState& now);
   /// Changes the rate by the twist `change` about the point `p` of world [m], as an impulse does.
-  void kick(const Twist& change, const Vector3d& p);
+  void add_rate(const Twist& change, const Vector3d& p);
 
-  /// Returns the mean rate of an offset that changes from the present one to `offset` in `h` [s], as it moves the proxy
-  /// of a hand that is then at `hand` [m].
+  /// Returns the mean rate of change from the present offset to `offset` over `h` [s], as seen by the proxy of a hand
+  /// that is then at `hand` [m].
   Twist rate_to(const RigidTransform& offset, const Vector3d& hand, double h) const;
-  /// Returns the offset of which only the fraction `left` is left.
-  RigidTransform returned(double left) const;
-  /// Returns the proxy's motion from `t` [s] on over `h` [s], at the end of which the offset is `offset`. It has this
-  /// rate from the start on, because a proxy has no mass.
+  /// Returns the offset reduced to the fraction `left` of the present one.
+  RigidTransform reduced_to(double left) const;
+  /// Returns the proxy's motion from `t` [s] over `h` [s], at the end of which the offset is `offset`. The offset has
+  /// the rate `rate` from the start, because a proxy has no mass.
   MotionSegment motion(const MotionSegment& hand, double t, double h, const RigidTransform& offset,
                        const Twist& rate) const;
   /// Returns the proxy's motion at time `t` [s], with its acceleration.

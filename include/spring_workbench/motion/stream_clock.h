@@ -11,12 +11,12 @@ namespace spring_workbench::motion {
 
 /// A moment by the local wall clock [ns since 1970].
 struct WallMoment {
-  std::int64_t now = 0;    ///< as if the clock had never been set: it grows evenly
-  std::int64_t steps = 0;  ///< by how much it has been set since: it shows `now + steps`
+  std::int64_t now = 0;    ///< time without steps, as if the clock had never been set
+  std::int64_t steps = 0;  ///< total of the steps by which it has been set: the clock shows `now + steps`
 };
 
-/// Takes the steps out of a wall clock: a change against the steady clock by more than 0.1 s between two readings is
-/// a step (the clock was set, or the machine was suspended), a smaller change is followed. Thread-safe.
+/// Removes the steps from a wall clock. A change relative to the steady clock by more than 0.1 s between two readings
+/// is a step (the clock was set, or the machine was suspended); smaller changes are followed. Thread-safe.
 class WallClock {
  public:
   /// Converts a reading of the wall clock, `wall`, made together with one of the steady clock, `steady` [ns].
@@ -31,18 +31,18 @@ class WallClock {
 /// Result of checking a message's stamp by a StreamClock.
 enum class StampResult {
   fits,
-  stepped,          ///< the sender's clock was set: check again those just before that did not fit, and this one
+  stepped,          ///< the sender's clock was set: check the preceding rejected messages and this one again
   too_old,          ///< by more than `max_age`
   from_the_future,  ///< ahead of the stream by more than 0.1 s
-  not_later,        ///< before the stream's newest by more than 0.1 s
+  not_later,        ///< more than 0.1 s before the newest stamp of the stream
 };
 /// The result in words, as in /diagnostics.
 std::string to_string(StampResult result);
 
-/// The clock of one stream of stamped messages: it keeps the offset between the sender's clock and the local wall clock
-/// without its steps. Slow drift is followed. A step of the sender's clock is a new offset: at once if this host's own
-/// clock made the same step; otherwise once at least three messages over 0.05 s of their stamps have arrived as evenly
-/// as they are stamped. A single message never changes the offset.
+/// The clock of one stream of stamped messages: tracks the offset between the sender's clock and the local wall clock
+/// (without the steps of the latter). Slow drift is followed. After a step of the sender's clock the offset is
+/// replaced: at once if this host's own clock made the same step; otherwise once at least three messages that span 0.05
+/// s of stamps have arrived as evenly as they are stamped. A single message never changes the offset.
 class StreamClock {
  public:
   /// `max_age` [s], > 0: the first message must be no further from now, and no message older.
@@ -73,37 +73,37 @@ class StreamClock {
   bool arrives_evenly(const Stamped& message);
 
   double max_age_;
-  std::int64_t offset_ = 0;             ///< stamps less local ones [ns]
+  std::int64_t offset_ = 0;             ///< stamps minus local times [ns]
   std::optional<std::int64_t> newest_;  ///< stamp
   std::int64_t arrival_ = 0;            ///< of that message [ns]
-  double usual_age_ = 0.0;              ///< smallest recent age, growing with clock_drift [s]
-  std::deque<Stamped> misfits_;         ///< since the newest that fitted
+  double smallest_age_ = 0.0;           ///< smallest recent age, increasing at clock_drift [s]
+  std::deque<Stamped> unmatched_;       ///< messages that did not fit since the newest one that did
   std::size_t steps_ = 0;
 };
 
-/// Which of several senders of one stream is followed: the first, until it has been silent for `patience` [s].
+/// Selects one of several senders of a stream: the first one, until it has been silent for `silence_timeout` [s].
 class SenderChoice {
  public:
-  explicit SenderChoice(double patience) : patience_(patience) {}
-  /// Whether what this sender sends at local time `now` [s] is to be used.
-  bool offers(const std::string& sender, double now) {
-    if (sender != name_ && !name_.empty() && now - arrival_ <= patience_) return false;
+  explicit SenderChoice(double silence_timeout) : silence_timeout_(silence_timeout) {}
+  /// Whether to use a message from this sender that arrived at local time `now` [s].
+  bool accepts(const std::string& sender, double now) {
+    if (sender != name_ && !name_.empty() && now - arrival_ <= silence_timeout_) return false;
     name_ = sender;
     arrival_ = now;
     return true;
   }
-  /// The one that is followed; empty before the first.
+  /// The selected sender; empty before the first message.
   const std::string& name() const { return name_; }
   void forget() { name_.clear(); }
 
  private:
-  double patience_;
+  double silence_timeout_;
   std::string name_;
   double arrival_ = 0.0;
 };
 
-/// Stream of stamped messages with its StreamClock. Messages that do not fit are kept for a while: if the sender's
-/// clock turns out to have been set, they are used after all.
+/// A stream of stamped messages with its StreamClock. Messages that do not fit are kept for a while, and are used after
+/// all if the sender's clock turns out to have been set.
 template <typename Message>
 class StampedStream {
  public:
@@ -128,14 +128,14 @@ class StampedStream {
     }
     if (result != StampResult::fits) {
       kept_.push_back({message, stamp, now, result, clock_.age(stamp, now)});
-      if (kept_.size() <= most_kept && clock_.has_begun()) return;
+      if (kept_.size() <= max_kept && clock_.has_begun()) return;
       reject_kept(kept_.front());
       return kept_.pop_front();
     }
     for (const Kept& kept : std::exchange(kept_, {})) reject_kept(kept);
     use(message, clock_.local(stamp), clock_.age(stamp, now));
   }
-  /// Another sender: its clock is not known.
+  /// Restarts for another sender, whose clock is not known.
   void restart() {
     clock_ = StreamClock(max_age_);
     kept_.clear();
@@ -143,7 +143,7 @@ class StampedStream {
   const StreamClock& clock() const { return clock_; }
 
  private:
-  static constexpr std::size_t most_kept = 16;
+  static constexpr std::size_t max_kept = 16;
   struct Kept {
     Message message;
     std::int64_t stamp = 0;

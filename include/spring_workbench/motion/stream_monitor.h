@@ -5,20 +5,21 @@
 
 namespace spring_workbench::motion {
 
-/// How evenly the samples of a station come. Smoothed over some fifty samples.
+/// How evenly the samples of a station arrive; smoothed over about fifty samples.
 struct StreamFigures {
   std::size_t samples = 0;
   double interval = 0.0;        ///< mean time between stamps [s]; 0 before the second sample
-  double stamp_jitter = 0.0;    ///< standard deviation of it [s]
+  double stamp_jitter = 0.0;    ///< standard deviation of the time between stamps [s]
   double receipt_jitter = 0.0;  ///< standard deviation of the time between receipts [s]
-  double age = 0.0;             ///< of the newest sample when it came: receipt less stamp [s]
+  double age = 0.0;             ///< age of the newest sample on arrival: receipt minus stamp [s]
   double longest_gap = 0.0;     ///< between stamps [s]
 };
 
-/// Keeps the figures of a stream of stamps [s] and their receipts [s], both of one clock or each of its own.
+/// Computes the figures of a stream of stamps [s] and their times of receipt [s], from the same or two different
+/// clocks.
 class StreamMonitor {
  public:
-  /// `dropout_after` [s]: longer gaps do not count as intervals.
+  /// `dropout_after` [s]: longer gaps are not counted as intervals.
   explicit StreamMonitor(double dropout_after) : dropout_after_(dropout_after) {}
 
   void sample(double stamp, double receipt);
@@ -27,7 +28,7 @@ class StreamMonitor {
   void restart();
 
  private:
-  /// Mean and variance with exponentially fading weights.
+  /// Mean and variance with exponentially decaying weights.
   struct Spread {
     double mean = 0.0, variance = 0.0;
     std::size_t count = 0;

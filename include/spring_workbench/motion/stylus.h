@@ -12,17 +12,17 @@
 
 namespace spring_workbench::motion {
 
-/// Motion and button edges of one stylus, and the wrench on what it holds, from their samples. With the clutch on, S
-/// stays where it is while the hand moves alone; afterwards S continues from there, and moves and turns in world as the
-/// hand does.
+/// Motion and button edges of one stylus, and the external wrench on the object that it holds, from their samples.
+/// While the clutch is on, the stylus frame S stays in place and the hand moves alone; afterwards S continues from
+/// there, and moves and turns in world as the hand does.
 class Stylus {
  public:
-  /// [s]; stamps nearer to each other are one. Smaller: a rounding error makes a step of its own. Test:
-  /// Simulation.ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn at 0.
+  /// [s]; stamps closer to each other count as equal. Smaller: a rounding error makes an extra step. Test:
+  /// Simulation.ARoundingErrorBetweenEndAndSampleAddsNoStep at 0.
   static constexpr double same_time = 1e-9;
 
-  /// `dropout_after` [s]: as for PoseTrack; `wrench_timeout` [s]: as for WrenchTrack. Without a sample it is at
-  /// `X_WS_start`.
+  /// `dropout_after` [s]: see PoseTrack; `wrench_timeout` [s]: see WrenchTrack. Before the first sample the stylus is
+  /// at `X_WS_start`.
   Stylus(double dropout_after, double wrench_timeout, const RigidTransform& X_WS_start)
       : track_(dropout_after), wrench_(wrench_timeout), X_WS_start_(X_WS_start), X_WS_(X_WS_start) {}
 
@@ -39,7 +39,7 @@ class Stylus {
   void push(double t, Press press) { presses_.push_back({t, press}); }
   void push(const ExternalWrench& sample) { wrench_.push(sample); }
   const PoseTrack& track() const { return track_; }
-  /// Whether its pose at time `now` [s] follows from the samples.
+  /// Whether its pose at time `now` [s] is known from samples.
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
   /// Its motion from `now` to the next sample.
   MotionSegment motion(double now) { return of_tool(track_.segment(now)); }
@@ -47,23 +47,23 @@ class Stylus {
   MotionSegment provisional(double now) const { return of_tool(track_.provisional(std::max(now, track_.begin()))); }
   /// The time after `now` at which the next segment of the motion begins; infinity if there is none.
   double next_sample(double now) const { return track_.next_after(now); }
-  /// Its twist at `now`, world axes; zero where that is not known.
+  /// Its twist at `now`, world axes; zero if that is not known.
   Twist twist(double now) const {
     if (clutched_ || !known(now)) return {};
     const MotionSegment segment = provisional(now);
     return segment.at(std::max(now, segment.begin())).velocity;
   }
-  /// The time after `now` of the next button edge or change of the wrench; infinity where there is none.
+  /// The time after `now` of the next button edge or change of the wrench; infinity if there is none.
   double next_edge(double now) const {
     const bool later = !presses_.empty() && presses_.front().t > now + same_time;
     const double press = later ? presses_.front().t : std::numeric_limits<double>::infinity();
     return std::min(press, wrench_.next_edge(now, same_time));
   }
-  /// Goes to the wrench at `now`. Returns whether it has timed out there.
+  /// Updates the wrench to time `now`. Returns whether it has just timed out.
   bool follow_wrench(double now) { return wrench_.follow(now, same_time); }
-  /// The wrench at the time of the last follow_wrench(); none: zero.
+  /// The wrench at the time of the last follow_wrench(); none if it is zero.
   const std::optional<ExternalWrench>& wrench() const { return wrench_.present(); }
-  /// Takes the next button edge up to `now`, where there is one.
+  /// Takes the next button edge up to `now`, if there is one.
   std::optional<Press> take_press(double now) {
     if (presses_.empty() || presses_.front().t > now + same_time) return std::nullopt;
     const Press press = presses_.front().press;
@@ -72,31 +72,31 @@ class Stylus {
   }
 
   bool clutched() const { return clutched_; }
-  /// At `now`, to which it has been followed.
+  /// Switches the clutch at `now`, the time of the last follow().
   void set_clutch(bool on, double now) {
     if (clutched_ && !on && known(now)) {
       const RigidTransform X_W = track_.pose(std::max(now, track_.begin()));  // of the hand
-      by_ = X_WS_.translation() - X_W.translation();
-      turned_ = make_transform(Quaterniond(X_W.linear().transpose() * X_WS_.linear()), Vector3d::Zero());
+      offset_W_ = X_WS_.translation() - X_W.translation();
+      rotation_offset_ = make_transform(Quaterniond(X_W.linear().transpose() * X_WS_.linear()), Vector3d::Zero());
       displaced_ = true;
     }
     clutched_ = on;
   }
 
-  /// Moves to its pose at `now`, if that is known.
+  /// Moves the stylus to its pose at `now`, if that is known.
   void follow(double now) {
     if (clutched_ || !known(now)) return;
     X_WS_ = track_.pose(std::max(now, track_.begin()));
     if (displaced_) X_WS_ = of_tool(X_WS_);
   }
-  /// The pose that was followed to last.
+  /// The pose at the last follow().
   const RigidTransform& X_WS() const { return X_WS_; }
   void forget_before(double now) {
     if (!track_.empty() && track_.begin() < now) track_.forget_before(now);
   }
 
   void exchange(math::StateArchive& state) {
-    state(track_, presses_, wrench_, X_WS_, clutched_, displaced_, by_, turned_);
+    state(track_, presses_, wrench_, X_WS_, clutched_, displaced_, offset_W_, rotation_offset_);
   }
 
  private:
@@ -105,9 +105,11 @@ class Stylus {
     Press press;
     void exchange(math::StateArchive& state) { state(t, press); }
   };
-  /// Where S is when the hand is there.
-  RigidTransform of_tool(const RigidTransform& X_W) const { return Eigen::Translation3d(by_) * X_W * turned_; }
-  /// What S does where the hand moves so: the same cubics between displaced ends.
+  /// The pose of S for this pose of the hand.
+  RigidTransform of_tool(const RigidTransform& X_W) const {
+    return Eigen::Translation3d(offset_W_) * X_W * rotation_offset_;
+  }
+  /// The motion of S for this motion of the hand: the same cubics between displaced ends.
   MotionSegment of_tool(const MotionSegment& hand) const {
     if (clutched_) return MotionSegment(X_WS_);
     if (!displaced_) return hand;
@@ -125,9 +127,9 @@ class Stylus {
   WrenchTrack wrench_;
   RigidTransform X_WS_start_, X_WS_;
   bool clutched_ = false;
-  bool displaced_ = false;  ///< S is not where the hand is, but `by_` away in world, and `turned_` against it
-  Vector3d by_ = Vector3d::Zero();
-  RigidTransform turned_ = RigidTransform::Identity();
+  bool displaced_ = false;  ///< S is displaced from the hand by `offset_W_` in world and rotated by `rotation_offset_`
+  Vector3d offset_W_ = Vector3d::Zero();
+  RigidTransform rotation_offset_ = RigidTransform::Identity();
 };
 
 }  // namespace spring_workbench::motion

@@ -16,14 +16,14 @@ struct StylusSample : PoseSample {
   std::size_t hand = 0;  ///< number of the stylus, from 0
 };
 
-/// An edge of one of a stylus' buttons.
+/// A button edge of a stylus.
 enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
 
-/// What the force sensor of a machine measures: a wrench on the held object at the tip E.
+/// Measurement of a machine's force sensor: a wrench on the held object at the tip E.
 struct ExternalWrench {
   /// Axes of the wrench: fixed in the world, or those of the tip, which turn with it.
   enum class Axes { world, tip };
-  double t = 0.0;  ///< when it was measured [s]
+  double t = 0.0;  ///< time of the measurement [s]
   Wrench wrench;   ///< about the origin of E, each component within ±1e5 [N, N·m]
   Axes axes = Axes::world;
 
@@ -34,12 +34,12 @@ inline std::vector<std::string> names_of(ExternalWrench::Axes) { return {"world"
 /// Throws InputError naming `where`, field, value and rule if a component is not finite or out of range.
 void validate(const ExternalWrench& sample, const std::string& where);
 
-/// Source of a stylus: a device, a recording or a script. Stamps are passed on as they come, including repeated and
+/// Source of stylus samples: a device, a recording or a script. Stamps are passed on unchanged, including repeated and
 /// backward ones (PoseTrack ignores those).
 class StylusSource {
  public:
   virtual ~StylusSource() = default;
-  /// The next sample, or nothing when there are no more.
+  /// Returns the next sample, or nothing at the end.
   virtual std::optional<StylusSample> next() = 0;
 };
 

@@ -7,15 +7,15 @@
 
 namespace spring_workbench::motion_files {
 
-/// A hand that goes from waypoint to waypoint, at rest in each, by minimum-jerk motion (`10 u³ − 15 u⁴ + 6 u⁵` along
-/// the straight line and about the fixed axis; Flash and Hogan, J. Neuroscience 5(7), 1985). From a YAML file:
+/// A hand that moves from waypoint to waypoint and rests at each, by minimum-jerk motion (`10 u³ − 15 u⁴ + 6 u⁵` along
+/// a straight line and about a fixed axis; Flash and Hogan, J. Neuroscience 5(7), 1985), as given by a YAML file:
 ///
 ///     rate: 50                                                   # samples per second [Hz], 0.1 … 10000
 ///     waypoints:
 ///       - {t: 0.0, pose: [0, 0, 0.3, 1, 0, 0, 0]}                # [s]; x y z qx qy qz qw [m, –]
-///       - {t: 1.0, pose: [0, 0, 0.25, 1, 0, 0, 0], button: true} # the button from here on; false where not given
+///       - {t: 1.0, pose: [0, 0, 0.25, 1, 0, 0, 0], button: true} # the button from here on; default: false
 ///
-/// The times increase. Samples lie at every multiple of 1/rate after the first waypoint, and at the last one.
+/// Times must increase. There is a sample at every multiple of 1/rate after the first waypoint, and one at the last.
 class ScriptedSource : public motion::StylusSource {
  public:
   /// Throws InputError with file:line, field, value and rule.

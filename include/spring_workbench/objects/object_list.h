@@ -10,19 +10,19 @@
 
 namespace spring_workbench::objects {
 
-/// The movable objects of a scene and their states. An object is given by its index in `states()`.
+/// The movable objects of a scene and their states. Objects are identified by their index in `states()`.
 class ObjectList {
  public:
   /// Keeps a reference to `scene`.
   explicit ObjectList(const scene::Scene& scene);
 
   const std::vector<bodies::BodyState>& states() const { return states_; }
-  /// To be changed.
+  /// State of an object for writing; records it as changed.
   bodies::BodyState& state(std::size_t object) {
     changes_.note(object);
     return states_[object];
   }
-  /// Of the objects' states, and of what else is kept of each.
+  /// Record of changes of the objects' states and of the other data on each object.
   bodies::Changes& changes() { return changes_; }
   std::size_t scene_index(std::size_t object) const { return in_scene_[object]; }
   const scene::Body& body(std::size_t object) const { return scene_.bodies[in_scene_[object]]; }
@@ -36,13 +36,13 @@ class ObjectList {
   bool with_contact() const { return scene_.contact != scene::ContactMode::none; }
 
  protected:
-  /// Puts all objects back to their start poses, asleep.
-  void put_back();
+  /// Returns all objects to their start poses, asleep.
+  void return_to_start();
 
   const scene::Scene& scene_;
   std::vector<bodies::BodyState> states_;
   bodies::Changes changes_;
-  bodies::Changes::Moment put_back_;
+  bodies::Changes::Moment reset_moment_;
   std::vector<std::size_t> object_of_;    ///< object by index in the scene; valid for movable bodies
   std::vector<std::size_t> highlighted_;  ///< the objects that are highlighted
 

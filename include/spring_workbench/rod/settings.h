@@ -35,20 +35,21 @@ struct ForkDofs {
 enum class ShapeKind { constant, linear, bushing };
 const std::vector<std::string>& names_of(ShapeKind);
 
-/// Meaning of the damping numbers: a ratio per DOF by itself (Kelvin–Voigt), one ratio for every mode of the held body,
-/// or the coefficients themselves.
+/// Interpretation of the damping values: one ratio per DOF (Kelvin–Voigt), one ratio for all modes of the held body, or
+/// the coefficients themselves.
 enum class DampingLaw { per_dof, modal, coefficients };
 const std::vector<std::string>& names_of(DampingLaw);
 
 /// The spring-fork's elastic part (doc/model.md, "The rod").
 struct ForkSettings {
-  ShapeKind shape = ShapeKind::linear;    ///< key `shape`
-  double length = 0.2;                    ///< key `fork.length` [m], > 0: rest length L
-  PerDof stiffness{2000.0, 500.0, 5.0};   ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
-  std::optional<double> slope_stiffness;  ///< key `fork.stiffness.slope` [N·m/rad], > 0: of the `bushing`'s end slope,
-                                          ///< for a bend stiffness > 0; by default k_bend L² / 3, as for a rod
-  PerDof damping_ratio{1.0, 1.0, 1.0};    ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
-  PerDof damping_coefficient;  ///< keys `fork.damping_coefficient.*` [N·s/m, N·s/m, N·m·s/rad], ≥ 0: those of the law
+  ShapeKind shape = ShapeKind::linear;   ///< key `shape`
+  double length = 0.2;                   ///< key `fork.length` [m], > 0: rest length L
+  PerDof stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
+  std::optional<double>
+      slope_stiffness;  ///< key `fork.stiffness.slope` [N·m/rad], > 0: for the end slope of the `bushing`,
+                        ///< for a bend stiffness > 0; by default k_bend L² / 3, as for a rod
+  PerDof damping_ratio{1.0, 1.0, 1.0};  ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
+  PerDof damping_coefficient;  ///< keys `fork.damping_coefficient.*` [N·s/m, N·s/m, N·m·s/rad], ≥ 0: for the law
                                ///< `coefficients`
   DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` needs one ζ for all DOFs
   ForkDofs dofs;                                 ///< keys `fork.dofs.*`
@@ -56,8 +57,8 @@ struct ForkSettings {
                                   ///< switched off while strained returns to zero strain
 };
 
-/// Coefficient of a damper [N·s/m] parallel to the fork's stretching spring, for a body of `mass` [kg] that this fork
-/// alone holds.
+/// Coefficient [N·s/m] of the damper in parallel with the fork's stretch spring, for a body of `mass` [kg] that is held
+/// by this fork alone.
 double stretch_damping(const ForkSettings& fork, double mass);
 
 }  // namespace spring_workbench::rod

@@ -17,7 +17,7 @@ using StrainMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_strain_coordinates, max_strain_coordinates>;
 using StrainJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_strain_coordinates>;
 
-/// Pose of the fork's tip E in the handle frame H and its motion with the strain; all vectors in the axes of H.
+/// Pose of the fork's tip E in the handle frame H and its motion with the strain; all vectors in H axes.
 struct TipKinematics {
   Matrix3d R_HE = Matrix3d::Identity();
   Vector3d p_HE = Vector3d::Zero();          ///< [m]
@@ -27,7 +27,7 @@ struct TipKinematics {
   Vector3d linear_bias = Vector3d::Zero();   ///< acceleration = linear · q̈ + linear_bias [m/s²]
 };
 
-/// TipKinematics for one strain (`S` double) or several.
+/// TipKinematics for one strain (`S` = double) or several at once.
 template <typename S>
 struct TipOf {
   math::ThreeByThree<S> R_HE;
@@ -44,7 +44,8 @@ struct CoordinateRange {
 };
 
 /// The curve of the fork's spring part as a function of a few strain coordinates q (doc/model.md, "Shape models";
-/// paper, section 4). Clamped to the handle at H, straight along z of H for q = 0. Immutable; without time or mass.
+/// paper, section 4). Clamped to the handle at H, and straight along z of H for q = 0. Immutable; knows neither time
+/// nor mass.
 class ShapeModel {
  public:
   virtual ~ShapeModel() = default;
@@ -55,35 +56,36 @@ class ShapeModel {
   CoordinateRange torsion() const { return {size() - 2, 1}; }
   CoordinateRange stretch() const { return {size() - 1, 1}; }
 
-  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J], for the DOFs' stiffness [N/m, N/m, N·m/rad].
+  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J], for the stiffness of the DOFs [N/m, N/m, N·m/rad].
   virtual StrainVector stiffness(const PerDof& k) const = 0;
-  /// Diagonal of the damping matrix D for the DOFs' damping coefficients `c` [N·s/m, N·s/m, N·m·s/rad]: within each DOF
-  /// D is c / k times K for the stiffness `k`, and its limit where k is zero.
+  /// Diagonal of the damping matrix D for the damping coefficients `c` of the DOFs [N·s/m, N·s/m, N·m·s/rad]. Within
+  /// each DOF, D is c / k times K for the stiffness `k`, or its limit if k is zero.
   virtual StrainVector damping(const PerDof& c, const PerDof& k) const;
 
-  /// The tip for strain `q` and strain rate `q_dot`; both of length size().
+  /// Computes the tip for strain `q` and strain rate `q_dot`, both of length size().
   void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const;
-  /// For size() coordinates each.
+  /// The same for arrays of size() coordinates.
   virtual void tip(const double* q, const double* q_dot, TipOf<double>& out) const = 0;
   virtual void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const = 0;
 
-  /// Whether the strain is the tip's shift from (0, 0, length()) and its rotation vector, (dx, dy, φx, φy, φz, dz).
+  /// Whether the strain is the tip's displacement from (0, 0, length()) and its rotation vector: (dx, dy, φx, φy, φz,
+  /// dz).
   virtual bool strain_is_pose() const { return false; }
 
   /// Extension of the rod [m] and twist angle [rad].
   virtual double extension(const StrainVector& q) const = 0;
   virtual double twist(const StrainVector& q) const = 0;
 
-  /// Pose of the rod's section at arc length `s` of the rest shape, 0 ≤ s ≤ length(), in H.
+  /// Pose in H of the rod's cross section at arc length `s` of the rest shape, 0 ≤ s ≤ length() [m].
   virtual RigidTransform section(const StrainVector& q, double s) const = 0;
 
-  /// If other coordinates give the same tip with less strain, changes to those, with the rates of the same motion (a
-  /// rotation vector beyond half a turn becomes that of the shorter turn). Returns whether it did.
+  /// Changes to equivalent coordinates with less strain, if there are any, and converts the rates accordingly (a
+  /// rotation vector beyond half a turn becomes that of the shorter rotation). Returns whether it did.
   virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
 
-  /// Whether a rod can have this strain: finite, not inverted, twisted by less than `max_turns`.
+  /// Whether the strain is possible: finite, not inverted, and within the rod's range.
   bool admissible(const StrainVector& q) const { return q.allFinite() && range_used(q) < 1.0; }
-  /// Fraction of the rod's range that this strain uses: 0 at rest, 1 at its end; a convex function.
+  /// Fraction of the rod's range that this strain uses: 0 at rest, 1 at the limit; a convex function of `q`.
   virtual double range_used(const StrainVector& q) const = 0;
 
   double length() const { return length_; }

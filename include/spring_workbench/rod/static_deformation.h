@@ -7,30 +7,31 @@
 
 namespace spring_workbench::rod {
 
-/// Strain of a fork in equilibrium under a load, and its derivative by the generalised force.
+/// Strain of a fork in equilibrium under a load, and its derivative with respect to the generalised force.
 struct RestStrain {
   StrainVector q;
   StrainMatrix compliance;  ///< symmetric, ≥ 0; zero for coordinates without stiffness
-  StrainVector imbalance;   ///< residual: elastic force less that of the load; zero at the end of the range
+  StrainVector
+      imbalance;  ///< residual: elastic force minus that of the load; zero for coordinates at the end of their range
 };
 
-/// The fork at rest under a load at the object's centre of mass that keeps its direction in the handle frame H
-/// (paper, sections 3.3 and 4). Coordinates without stiffness have no rest and stay at zero.
+/// Static equilibrium of the fork under a load at the object's centre of mass whose direction is fixed in the handle
+/// frame H (paper, sections 3.3 and 4). Coordinates without stiffness have no equilibrium and stay at zero.
 class StaticDeformation {
  public:
   using Active = std::array<bool, max_strain_coordinates>;
-  /// Keeps a reference to `shape`. `stiffness`: diagonal of K; the coordinates that are not `active` stay as they are.
-  /// `p_EO`: the object's centre of mass in the tip frame [m]; `load_H` there, axes of H [N, N·m].
+  /// Keeps a reference to `shape`. `stiffness`: diagonal of K; coordinates that are not `active` stay constant. `p_EO`:
+  /// the object's centre of mass in the tip frame [m]; `load_H`: load there, in H axes [N, N·m].
   StaticDeformation(const ShapeModel& shape, const StrainVector& stiffness, const Active& active, const Vector3d& p_EO,
                     const Wrench& load_H)
       : shape_(shape), K_(stiffness), active_(active), p_EO_(p_EO), load_H_(load_H) {}
 
-  /// In the paper's order (section 5): bend and stretch with the twist of `from`, then the twist with these; repeated
-  /// calls under a constant load therefore converge to the equilibrium of all coordinates. Newton's method with a line
-  /// search, starting at `from`; stops at the end of the rod's range.
+  /// Solves in the paper's order (section 5): bend and stretch at the twist of `from`, then the twist at these.
+  /// Repeated calls under a constant load therefore converge to the equilibrium of all coordinates. Newton's method
+  /// with a line search, starting at `from`; stops at the end of the rod's range.
   RestStrain under_load(const StrainVector& from) const;
 
-  /// Generalised force of the load, or of another at the same place [force; moment].
+  /// Generalised force of the load, or of another load [force; moment] at the same point.
   StrainVector force(const StrainVector& q) const { return force(q, to_vector(load_H_)); }
   StrainVector force(const StrainVector& q, const Vector6d& load_H) const;
 
@@ -42,13 +43,13 @@ class StaticDeformation {
   };
   struct Slope;
   Block block(bool torsion) const;
-  StrainVector imbalance(const StrainVector& q) const;  ///< elastic force less that of the load
-  /// Derivative of the imbalance by the block's coordinates; and the tip's motion per unit of each, as a fraction of
-  /// the fork's length or in radians.
+  StrainVector imbalance(const StrainVector& q) const;  ///< elastic force minus that of the load
+  /// Derivative of the imbalance with respect to the block's coordinates, and the tip's displacement per unit of each,
+  /// as a fraction of the fork's length or in radians.
   Slope slope(const StrainVector& q, const Block& block) const;
   /// Equilibrium of the block's coordinates; returns those that are not at the end of the rod's range.
   Block find(Block block, StrainVector& q) const;
-  /// Moves coordinates that `change` alone would lead out of the range to its end, and removes them from the block.
+  /// Moves the coordinates that `change` would take out of the range to its end, and removes them from the block.
   bool stop(const StrainVector& change, Block& block, StrainVector& q) const;
 
   const ShapeModel& shape_;

@@ -10,8 +10,8 @@
 
 namespace spring_workbench::scene {
 
-/// [m/s²] on Earth: the default of a scene, and the conversion of a mass into a weight if there is no gravity. Weights
-/// scale with it. Goes into `Calibration.NoLoadNoGravityStaysPositive`.
+/// Gravitational acceleration on Earth [m/s²]: the default of a scene, and the factor from mass to weight in a scene
+/// without gravity. Weights scale with it. Test: Calibration.NoLoadNoGravityStaysPositive.
 constexpr double standard_gravity = 9.81;
 
 /// Mass [kg], and inertia tensor [kg·m²] about the centre of mass in the axes of O.
@@ -50,9 +50,10 @@ struct Target {
   RigidTransform X_WL = RigidTransform::Identity();
   double position_tolerance = 0.01;
   double angle_tolerance = 0.1;
-  double max_force = std::numeric_limits<double>::infinity();  ///< [N], > 0: pressed harder by another body, it breaks
-  std::vector<Vector3d> p_LG;  ///< where the hands that carry it hold it, in its link frame; empty: one hand, at its
-                               ///< centre of mass
+  double max_force =
+      std::numeric_limits<double>::infinity();  ///< [N], > 0: the object breaks if a contact force exceeds it
+  std::vector<Vector3d> p_LG;  ///< grip points of the hands that carry it, in its link frame [m]; empty: one hand, at
+                               ///< its centre of mass
 };
 
 /// A scene as read from a URDF and the YAML file of the same name next to it.
@@ -62,21 +63,23 @@ struct Scene {
   std::vector<Body> bodies;
   double gravity = standard_gravity;  ///< [m/s²], along −z of world; ≥ 0
   double bench_height = 0.0;          ///< z of the workbench plane in world [m]
-  Material bench_material;            ///< the scene's defaults
+  Material bench_material;            ///< of the bench, and the default of the bodies
   ContactMode contact = ContactMode::stop;
   std::string tool = "spring_fork";
-  double force_scale = 1.0;                                               ///< ratio of virtual to real force, > 0
-  std::vector<RigidTransform> X_WH_start = {RigidTransform::Identity()};  ///< start of each hand's handle; one or more
+  double force_scale = 1.0;  ///< ratio of virtual to real force, > 0
+  std::vector<RigidTransform> X_WH_start = {
+      RigidTransform::Identity()};  ///< start pose of each hand's handle; at least one
   std::map<std::string, Target> targets;
-  std::vector<std::string> warnings;  ///< one line for each repair on loading, naming the link
+  std::vector<std::string> warnings;  ///< one line for each repair made on loading, with the name of the link
 };
 
-/// The folder of a package in the colon-separated folders of ROS_PACKAGE_PATH, or an empty string: no ROS needed.
+/// Returns the folder of a package below the colon-separated folders of ROS_PACKAGE_PATH, or an empty string. Does not
+/// need ROS.
 std::string find_package_in_ros_package_path(const std::string& package);
 
-/// Reads a scene from a URDF file path or `package://` URI, with the YAML file next to it if there is one. After
-/// resolving symbolic links, all files must be in one of the folders `roots` or in a ROS package; with no `roots`,
-/// anywhere. Throws InputError with file, field, rule and value for anything invalid.
+/// Reads a scene from a URDF, given by its path or `package://` URI, and the YAML file next to it, if there is one.
+/// After resolving symbolic links, all files must be in one of the folders `roots` or in a ROS package; with no
+/// `roots`, they may be anywhere. Throws InputError with file, field, rule and value for invalid input.
 Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots = {});
 
 /// Index of the body called `name`, or nothing.

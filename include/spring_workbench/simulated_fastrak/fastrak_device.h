@@ -11,11 +11,11 @@
 
 namespace spring_workbench::simulated_fastrak {
 
-/// A motion that is played round and round, straight and evenly turning between its samples.
+/// A motion that is played in a loop, with linear interpolation of position and rotation between its samples.
 class PlayedMotion {
  public:
-  /// Throws InputError for no samples and for a position that the device has no digits for (10 m and more). Samples
-  /// that are not later than the one before are skipped.
+  /// Throws InputError if there are no samples, or for a position beyond the digits of the device (10 m and more).
+  /// Samples that are not later than the previous one are skipped.
   explicit PlayedMotion(const std::vector<motion::StylusSample>& samples);
   /// `t` [s] >= 0.
   motion::StylusSample at(double t) const;
@@ -24,24 +24,27 @@ class PlayedMotion {
   std::vector<motion::StylusSample> samples_;
 };
 
-/// A FASTRAK as its line sees it: commands in, records out. It has no clock. Station k plays the k-th motion, whose
-/// poses are those of the receiver in the transmitter's frame; sockets without a motion have no receiver. Taken and
-/// without effect: `A`, `I`, `N`, `R`, `r`, `o`. Ctrl-Y and `W` give the state at power-on, at once.
+/// A simulated FASTRAK at the level of its serial protocol: commands in, records out. It has no clock. Station k plays
+/// the k-th motion, which gives the poses of the receiver in the transmitter's frame; stations without a motion have no
+/// receiver. The commands `A`, `I`, `N`, `R`, `r`, `o` are accepted without effect. Ctrl-Y and `W` restore the power-on
+/// state at once.
 class FastrakDevice {
  public:
-  /// 1 … 4 motions; throws InputError for another number. `switches`: the stations whose stylus' switch works; 1 alone
-  /// with the maker's device, while one that emulates it may know more.
+  /// Takes 1 … 4 motions; throws InputError for another number. `switches`: stations whose stylus switch is reported;
+  /// station 1 alone for the original device, while emulations may support more.
   explicit FastrakDevice(std::vector<PlayedMotion> motions, std::vector<int> switches = {1});
 
-  /// What the device answers to these bytes of the host.
+  /// Returns the device's reply to these bytes from the host.
   std::string receive(std::string_view bytes);
 
-  /// One cycle at time `t` [s]: the next active station measures. What is sent: a record in continuous mode.
+  /// Runs one cycle at time `t` [s], in which the next active station measures. Returns what is sent: a record in
+  /// continuous mode, otherwise nothing.
   std::string measure(double t);
-  int last_station() const { return last_station_; }  ///< that measured last
-  /// As at power-on: inches, ASCII, position and angles, polled.
+  int last_station() const { return last_station_; }  ///< the station that measured last
+  /// Restores the power-on state: inches, ASCII, position and angles, polled.
   void reset();
-  /// As another program may have left it: streaming inches in ASCII with the default list.
+  /// Puts the device into a mode in which another program may have left it: streaming in ASCII and inches with the
+  /// default list.
   void leave_in_another_mode();
 
  private:
@@ -66,14 +69,14 @@ class FastrakDevice {
   fastrak::FastrakFormat format_ = fastrak::FastrakFormat::ascii;
   fastrak::FastrakUnits units_ = fastrak::FastrakUnits::inches;
   bool continuous_ = false;
-  bool held_ = false;    ///< by the switch
-  bool paused_ = false;  ///< by Ctrl-S
+  bool held_ = false;    ///< stream stopped by the switch
+  bool paused_ = false;  ///< stream paused by Ctrl-S
   bool switch_acts_ =
-      true;  ///< mode 1: in continuous mode a press stops and starts the stream, else it asks for records
+      true;  ///< mode 1: a press stops or restarts the stream in continuous mode, and otherwise requests records
   bool pressed_ = false;
   int last_station_ = fastrak::kFastrakStations;
   double t_ = 0.0;
-  std::string command_;  ///< one with arguments, up to now
+  std::string command_;  ///< the part received so far of a command with arguments
 };
 
 }  // namespace spring_workbench::simulated_fastrak

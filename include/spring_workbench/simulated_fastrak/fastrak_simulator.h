@@ -11,11 +11,11 @@
 
 namespace spring_workbench::simulated_fastrak {
 
-/// A FASTRAK on a pseudo-terminal, with faults. Time is the caller's.
+/// A simulated FASTRAK on a pseudo-terminal, with faults. The caller provides the time.
 class FastrakSimulator {
  public:
-  /// `link`: a symbolic link to the pseudo-terminal, re-created whenever that changes; empty: none. Throws InputError
-  /// if something other than a link is there, or none can be made.
+  /// `link`: path of a symbolic link to the pseudo-terminal, updated whenever that changes; empty: no link. Throws
+  /// InputError if something other than a link exists there, or if the link cannot be created.
   FastrakSimulator(FastrakDevice device, LineFaults faults, std::string link = "");
   ~FastrakSimulator();  ///< removes the link
   FastrakSimulator(const FastrakSimulator&) = delete;
@@ -24,15 +24,15 @@ class FastrakSimulator {
   /// Path of the pseudo-terminal; empty while it is unplugged.
   std::string path() const { return terminal_ ? terminal_->path() : ""; }
 
-  /// Reads commands of the host, responds, and sends what is due; waits for the host, at most `timeout` [s].
+  /// Reads and answers commands of the host and sends pending bytes; waits for the host for at most `timeout` [s].
   void serve(double timeout);
 
-  /// One cycle at time `t` [s], later than the last one.
+  /// Runs one measurement cycle at time `t` [s], later than the last one.
   void measure(double t);
   const FastrakDevice& device() const { return device_; }
-  std::size_t waiting() const { return waiting_.size(); }   ///< bytes that have not been read yet
-  std::size_t records_sent() const { return sent_; }        ///< data records, whole or spoilt
-  std::size_t records_dropped() const { return dropped_; }  ///< because they were not read
+  std::size_t waiting() const { return waiting_.size(); }   ///< bytes that the host has not read yet
+  std::size_t records_sent() const { return sent_; }        ///< data records, intact or corrupted
+  std::size_t records_dropped() const { return dropped_; }  ///< because the host did not read them
 
  private:
   void plug_in();

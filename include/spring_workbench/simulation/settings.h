@@ -21,12 +21,12 @@ namespace spring_workbench::simulation {
 /// Settings of a simulation, one field per key. `setting_descriptions()` has type, unit, range and meaning of each key;
 /// parameters, the options of `replay` and doc/reference.md come from it.
 struct SimulationSettings {
-  std::optional<tools::Tool> tool;            ///< key `tool`; absent: the scene's, as for the next three
+  std::optional<tools::Tool> tool;            ///< key `tool`; absent: as in the scene, likewise for the next three
   std::optional<scene::ContactMode> contact;  ///< key `contact`
   std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
   std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
   bool massless = false;                      ///< key `massless`: no object has mass
-  int styluses = 2;                           ///< key `styluses`, 1 … 255: a stylus is a byte in messages
+  int styluses = 2;                           ///< key `styluses`, 1 … 255 (a byte in messages)
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
   double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3
   int clutch_button = 2;                      ///< key `clutch.button`: index in the stylus' Joy
@@ -43,7 +43,7 @@ struct SimulationSettings {
 /// that the damping law does not allow.
 void validate(const SimulationSettings& settings, const std::string& where);
 
-/// Converts a twist in the world to the lengths and time of the hand, for a machine that moves in its place.
+/// Converts a twist in the world to the lengths and time of the hand, for a machine that moves in place of the hand.
 Twist at_hand(const Twist& V_W, const SimulationSettings& settings);
 
 /// A change of the fork while running; absent fields stay as they are.
@@ -61,7 +61,7 @@ struct ForkChange {
   rod::ForkSettings applied_to(rod::ForkSettings fork) const;
 };
 
-/// Returns the change that gives any fork the springs, dampers and DOFs of `fork`; its shape and length stay.
+/// Returns the change that gives any fork the springs, dampers and DOFs of `fork`; shape and length are not changed.
 ForkChange change_to(const rod::ForkSettings& fork);
 
 /// A change of integrator, step or tolerance; absent fields stay as they are.
@@ -80,7 +80,7 @@ struct ObjectEdit {
   Action action = Action::move;
   std::string object;                  ///< its name
   std::string urdf;                    ///< for `add`: path or package:// URI of the object's URDF
-  std::optional<RigidTransform> X_WL;  ///< pose of its URDF link's frame in world; `move` needs it; an added
+  std::optional<RigidTransform> X_WL;  ///< pose of its URDF link frame in world; required by `move`; an added
                                        ///< object without it stands on the bench at x = y = 0
   double mass = 0.0;                   ///< for `mass`: the new mass [kg], 0 … 1e12; with 0 the object is massless
   double friction = 0.0;               ///< for `friction`: the new Coulomb coefficient, ≥ 0
@@ -104,8 +104,8 @@ struct SettingDescription {
 };
 std::vector<SettingDescription> setting_descriptions();
 
-/// Sets the fields that `values` (a YAML map, nested or with dotted keys) names, all or none.
-/// Throws InputError naming `where`, key, value and rule for an unknown key, a wrong type or a value out of range.
+/// Sets the fields given in `values` (a YAML map, nested or with dotted keys), all or none. Throws InputError naming
+/// `where`, key, value and rule for an unknown key, a wrong type or a value out of range.
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings);
 
 }  // namespace spring_workbench::simulation

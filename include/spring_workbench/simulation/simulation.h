@@ -19,14 +19,14 @@
 namespace spring_workbench::simulation {
 
 /// The whole state of a simulation between two calls: everything that its future depends on, apart from its scene and
-/// the settings it was made with. A value: a simulation of the same scene and settings that is restored from it
-/// continues bit by bit like the one that was saved (`Simulation::save`, `Simulation::restore`).
+/// the settings it was made with. A simulation of the same scene and settings that is restored from it has a
+/// bit-identical future to the one that was saved (`Simulation::save`, `Simulation::restore`).
 class SimulationState {
  public:
-  SimulationState() = default;  ///< empty: to be assigned to; `Simulation::restore` refuses it
+  SimulationState() = default;  ///< an empty state, which `Simulation::restore` refuses
 
   int styluses() const { return styluses_; }  ///< of the simulation that was saved; 0 if empty
-  /// Returns the hash of all its numbers: equal states have equal hashes on every machine.
+  /// Returns a hash of all its numbers; equal states have equal hashes on every machine.
   std::uint64_t hash() const { return math::hash(words_); }
   bool operator==(const SimulationState& other) const { return origin_ == other.origin_ && words_ == other.words_; }
   bool operator!=(const SimulationState& other) const { return !(*this == other); }
@@ -36,21 +36,22 @@ class SimulationState {
   friend std::string serialise(const SimulationState& state);
   friend SimulationState parse_state(const std::string& text);
 
-  std::string origin_;  ///< what a simulation restored from it must be made with, a line per property
+  std::string origin_;  ///< what a simulation must have in common to be restored from it, a line per property
   int styluses_ = 0;
   math::StateArchive::Words words_;
 };
 
-/// The state as YAML text, which another process can parse: every number with all its bits.
+/// The state as YAML text for another process, with all bits of every number.
 std::string serialise(const SimulationState& state);
 
-/// Throws InputError if the text is no such state, or if its hash does not match its numbers.
+/// Reads the text of serialise(). Throws InputError if it is not such a state, or if its hash does not match its
+/// numbers.
 SimulationState parse_state(const std::string& text);
 
 /// A hash as 16 hexadecimal digits.
 std::string to_hex(std::uint64_t hash);
 
-/// What a call of `advance`, or a sequence of calls, did.
+/// Report on a call of `advance` or a sequence of calls.
 struct AdvanceReport {
   int steps = 0;                   ///< integrator steps taken
   double simulated_time = 0.0;     ///< [s]
@@ -75,15 +76,15 @@ struct AdvanceReport {
   double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
   int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
   int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time
-  std::bitset<8> ran;         ///< which subsystems ran, in the order of active()
+  std::bitset<8> ran;         ///< the subsystems that ran, in the order of active()
 
   std::vector<std::string> active() const;   ///< names of the subsystems that ran
-  std::vector<std::string> skipped() const;  ///< names of those that were not needed
-  /// Adds a later report: sums, largest errors, the subsystems that ran in either.
+  std::vector<std::string> skipped() const;  ///< names of the subsystems that were not needed
+  /// Adds a later report: sums of counts and times, maxima of errors, union of the subsystems that ran.
   void add(const AdvanceReport& later);
 };
 
-/// Effect of a change of the fork on the stored energy.
+/// Effect of a change of the fork on its stored energy.
 struct ChangeReport {
   double elastic_energy_before = 0.0;  ///< [J]
   double elastic_energy_after = 0.0;   ///< [J]
@@ -91,13 +92,13 @@ struct ChangeReport {
 };
 
 /// A scene, the hands and their tools, with only the subsystems that the scene needs. It owns simulated time. It uses
-/// no clock, thread, log or ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. A
-/// hand is a number from 0 (the first stylus) to hands() − 1; any other throws InputError. All times are those of the
-/// hand's clock. `settings().hand_time_scale` times as much time passes in the world, in which velocities and rates are
-/// reported and whose steps `settings().dynamics.step` limits.
+/// no clock, thread, log or ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. Hands
+/// are numbered from 0 (the first stylus) to hands() − 1; any other number throws InputError. All times are those of
+/// the hand's clock. World time runs `settings().hand_time_scale` times as fast; velocities, rates and the limit
+/// `settings().dynamics.step` refer to world time.
 class Simulation {
  public:
-  /// Throws InputError if settings and scene do not match (e.g. `grasp.object` is not in the scene).
+  /// Throws InputError if settings and scene do not match (e.g. if `grasp.object` is not in the scene).
   Simulation(const scene::Scene& scene, const SimulationSettings& settings);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -107,34 +108,35 @@ class Simulation {
   const scene::Scene& scene() const;
   /// The settings as given, with `dynamics` as changed since and `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
-  std::size_t hands() const;  ///< as many as `settings().styluses`
-  /// The fork in a hand: as given, changed and calibrated since.
+  std::size_t hands() const;  ///< number of hands, `settings().styluses`
+  /// The fork in a hand, with all changes and calibrations since the start.
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
 
   /// Simulated time [s]; the stamp of the first sample until `advance` is called.
   double time() const;
-  /// The same by the clock of the world [s].
+  /// The same in world time [s].
   double world_time() const;
 
   /// Adds a pose of the stylus; its position is scaled by `settings().hand_scale`. Returns false, and ignores the pose,
   /// if its stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// Presses or releases a button at time `t` [s], finite; it acts at the first step that begins at or after `t`.
+  /// Presses or releases a button at the finite time `t` [s]; it acts at the first step that begins at or after `t`.
   void push_press(double t, motion::Press press, std::size_t hand = 0);
-  /// The grasp button.
+  /// Presses or releases the grasp button.
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
   }
-  /// The second button: selects the next tool or, while something is held, the next tool that can hold it.
+  /// Presses the second button, which selects the next tool or, while something is held, the next tool that can hold
+  /// it.
   void push_next_tool(double t, std::size_t hand = 0) { push_press(t, motion::Press::next_tool, hand); }
-  /// The clutch. While it is on, the tool and what it holds stay where they are; when it goes off, they follow the
-  /// hand's further motion from there.
+  /// Switches the clutch. While it is on, the tool and what it holds stay in place; when it is switched off, they
+  /// follow the hand's further motion from there.
   void push_clutch(double t, bool on, std::size_t hand = 0) {
     push_press(t, on ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
   }
-  /// Adds a wrench on the held object that a machine's force sensor has measured, in real units: it is multiplied by
-  /// the scene's `force_scale`. It acts from its time on, or at once if it is late, until the next one or for
-  /// `settings().wrench_timeout`. Throws InputError, and changes nothing, if it is invalid.
+  /// Adds a wrench on the held object that was measured by a machine's force sensor, in real units; it is multiplied by
+  /// the scene's `force_scale`. It acts from its time (at once if that has passed) until the next wrench, but at most
+  /// for `settings().wrench_timeout`. Throws InputError, and changes nothing, if it is invalid.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() if there is none.
   double newest_sample() const;
@@ -143,11 +145,12 @@ class Simulation {
   /// over several edges in one call.
   double next_edge() const;
 
-  /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step` that end at the samples. If
-  /// `t_end` is not later than time(), no time passes, but earlier buttons act. Throws InputError if it is not finite.
+  /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; steps also end at each
+  /// sample. If `t_end` is not later than time(), no time passes, but pending buttons act. Throws InputError if it is
+  /// not finite.
   AdvanceReport advance(double t_end);
 
-  /// Puts all objects back to their start poses, releases them and forgets all samples.
+  /// Releases all objects, returns them to their start poses and forgets all samples.
   void reset();
   /// Places these objects at rest at the given poses; all hands release first. Throws InputError, and changes nothing,
   /// if a name is not that of a movable object or a pose is not finite.
@@ -156,43 +159,44 @@ class Simulation {
   bool release();
   bool release(std::size_t hand);  ///< the same for one hand
 
-  // Changes while running; pose and twist of the object do not jump. A change that is impossible throws InputError and
+  // Changes while running. The pose and twist of the object do not jump. An impossible change throws InputError and
   // changes nothing.
   /// Changes the tool in one hand or, with std::nullopt, in each. The hand keeps its object, and the new tool starts
-  /// without strain; only the probe cannot hold, so the object is released.
+  /// without strain; the probe cannot hold an object, so it is released.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = 0);
   /// Changes the fork in one hand or, with std::nullopt, in each.
   ChangeReport change(const ForkChange& change, std::optional<std::size_t> hand = std::nullopt);
   /// Changes integrator, step or tolerance of all hands. Throws InputError if a value is invalid.
   void change(const DynamicsChange& change);
   /// Makes both changes, or neither.
-  void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
-  /// Adds, moves or removes an object, or changes its mass or friction; everything else continues from where it is.
-  /// Added and moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed
-  /// one fall. A removed object is released first. A moved object keeps its start pose, to which reset() returns it. A
-  /// URDF is read from `roots` as by load_scene(), and again by restore(). Throws InputError also for a held object
-  /// that is to be moved, and for an added or moved one that would overlap another body by more than 0.1 mm.
+  void change(const ForkChange& fork_change, const DynamicsChange& dynamics_change);
+  /// Adds, moves or removes an object, or changes its mass or friction; the state of everything else is kept. Added and
+  /// moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed one fall. A
+  /// removed object is released first. A moved object keeps its start pose, to which reset() returns it. The URDF of an
+  /// added object is read from `roots` as in load_scene(), and again by restore(). Also throws InputError if a held
+  /// object is to be moved, or if an added or moved object would overlap another body by more than 0.1 mm.
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {});
-  /// The scene as edited, with its objects where they are now.
+  /// The scene with all edits, with its objects at their present poses.
   scene::Scene scene_now() const;
-  /// Fits one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
-  /// scene's stiffness. The damping ratios stay. Throws InputError if no fork or spring holds an object.
+  /// Calibrates one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
+  /// scene's stiffness. Damping ratios are not changed. Throws InputError if no fork or spring holds an object.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
 
-  const std::vector<bodies::BodyState>& objects() const;       ///< the movable objects, in the scene's order
-  const bodies::Changes& object_changes() const;               ///< of these
-  tools::ToolState fork(std::size_t hand = 0) const;           ///< state of the tool in a hand, also if it is no fork
-  const std::vector<contact::ContactState>& contacts() const;  ///< present ones, and those that ended in the last call
+  const std::vector<bodies::BodyState>& objects() const;  ///< the movable objects, in the scene's order
+  const bodies::Changes& object_changes() const;          ///< changes of the states in objects()
+  tools::ToolState fork(std::size_t hand = 0) const;      ///< state of the tool in a hand, whether or not it is a fork
+  const std::vector<contact::ContactState>& contacts()
+      const;  ///< present contacts, and those that ended in the last call
 
-  /// The whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
-  /// starts, histories of integrators, the settings that can be changed while running, and what was edited. Two saves
-  /// of one state are equal.
+  /// Saves the whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
+  /// starts, histories of integrators, the settings that can be changed while running, and the edits. Two saves of one
+  /// state are equal.
   SimulationState save() const;
-  /// Restores a saved state, from which the future is bit-identical, whatever has happened since. Throws InputError,
-  /// and changes nothing, if the state has other objects, another number of styluses, another contact mode or
-  /// another shape of the fork, or is invalid.
+  /// Restores a saved state; the future is then bit-identical, whatever has happened in between. Throws InputError, and
+  /// changes nothing, if the state is invalid or has different objects, a different number of styluses, or a different
+  /// contact mode or fork shape.
   void restore(const SimulationState& state);
-  /// The same as restore(other.save()), and quicker for one of the same scene, settings and edits.
+  /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.
   void follow(const Simulation& other);
   std::uint64_t state_hash() const { return save().hash(); }  ///< hash of save()
 

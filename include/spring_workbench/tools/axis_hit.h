@@ -10,8 +10,8 @@
 
 namespace spring_workbench::tools {
 
-/// The nearest thing within `reach` [m] in front of the stylus. `objects`: states of the scene's movable bodies, in its
-/// order; `around`: of the scene; `passes(body, X_OH)`: not in the way.
+/// Returns the nearest body within `reach` [m] along the z axis of the stylus. `objects`: states of the scene's movable
+/// bodies, in its order; `around`: the scene's surroundings; bodies for which `passes(body, X_OH)` is true are ignored.
 template <typename Passes>
 AxisHit first_on_axis(const scene::Scene& scene, const std::vector<bodies::BodyState>& objects,
                       const bodies::Surroundings& around, const RigidTransform& X_WS, double reach, Passes&& passes) {

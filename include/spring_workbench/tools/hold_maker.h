@@ -10,42 +10,42 @@
 
 namespace spring_workbench::tools {
 
-/// How a tool is about to hold an object.
+/// Geometry of a tool's hold on an object.
 struct Grasp {
   Tool tool = Tool::spring_fork;
-  std::size_t object = 0;  ///< in the workbench
-  RigidTransform X_WS;     ///< the stylus
-  RigidTransform X_OE;     ///< the tip in the object
-  double reach = 0.0;      ///< from the stylus to the tip, along z [m]
-  double length = 0.0;     ///< of the spring part of a fork [m]; the rest of the reach is rigid
+  std::size_t object = 0;  ///< index among the movable objects
+  RigidTransform X_WS;     ///< pose of the stylus
+  RigidTransform X_OE;     ///< pose of the tip in the object
+  double reach = 0.0;      ///< distance from the stylus to the tip along z [m]
+  double length = 0.0;     ///< length of the spring part of a fork [m]; the rest of the reach is rigid
 
   void exchange(math::StateArchive& state) { state(tool, object, X_WS, X_OE, reach, length); }
 };
 
 /// The object to be grasped.
 struct GraspedBody {
-  std::size_t index = 0;  ///< in the scene
+  std::size_t index = 0;  ///< index in the scene
   const scene::Body& body;
   RigidTransform X_WO;
 
   bool massless() const { return !(body.mass_properties.mass > 0.0); }
 };
 
-/// Makes a tool's hold on an object.
+/// Makes the holds of tools on objects.
 class HoldMaker {
  public:
   /// Keeps references. `gravity` [m/s²] along −z of world.
   HoldMaker(const rod::ForkSettings& fork, const dynamics::DynamicsSettings& dynamics, double gravity)
       : fork_(fork), dynamics_(dynamics), gravity_(gravity) {}
 
-  /// A hold without strain, at time `now` [s]. Set the hand's motion before using it.
+  /// Makes a hold without strain, at time `now` [s]. Set the hand's motion before using it.
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
-  /// Makes the object, at time `now` [s], a body that no tool holds, to be pushed by tools. Its mass must be > 0.
+  /// Makes the object, at time `now` [s], a body that no tool holds and that tools can push. Its mass must be > 0.
   std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
-  /// Makes the object as a free body with this twist, under the constant wrench `at_tip_W` of a tool at its limit.
+  /// Makes the object a free body with this twist, under the constant wrench `at_tip_W` of a tool at its limit.
   std::unique_ptr<bodies::SteppedBody> make_pulled(const Grasp& grasp, const GraspedBody& object, const Twist& V_WO_W,
                                                    const Wrench& at_tip_W) const;
-  /// The DOFs in which the object can move: those that are on and in which it has an inertia.
+  /// The DOFs in which the object can move: those that are on and in which it has inertia.
   rod::ForkDofs possible_dofs(const Grasp& grasp, const GraspedBody& object) const;
 
  private:

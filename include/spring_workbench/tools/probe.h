@@ -10,29 +10,30 @@
 
 namespace spring_workbench::tools {
 
-/// The nearest body, or the bench, that the z axis of a hand meets.
+/// The nearest point at which the z axis of a hand meets a body or the bench.
 struct AxisHit {
   double distance = 0.0;              ///< [m]
   const scene::Body* body = nullptr;  ///< null: the bench plane
   const scene::Material* material = nullptr;
-  // Of a body, in its object frame:
+  // The following are in the object frame of the body:
   Vector3d point_O = Vector3d::Zero();   ///< point at which the axis meets it [m]
-  Vector3d normal_O = Vector3d::Zero();  ///< of its surface there, outward
+  Vector3d normal_O = Vector3d::Zero();  ///< outward normal of the surface there
 };
 
 /// The tool `spring_probe` while it touches something (doc/model.md, "The probe"): a spring along the probe's axis in
-/// series with that of the material, which it reads. It can only push, without friction at its tip. On a movable body
-/// it is a coupling with a damper parallel to both springs; the surface is the plane in which it was first touched.
+/// series with the spring of the material, whose stiffness it measures. It can only push, without friction at its tip.
+/// On a movable body it is a coupling with a damper parallel to both springs; the surface is the tangent plane at the
+/// first point of contact.
 class Probe final : public dynamics::Coupling {
  public:
-  /// Touches the body that is `touched.distance` in front of the hand, less than the probe's `length` [m], from time
-  /// `now` [s] on. Keeps no reference.
+  /// Starts a touch, at time `now` [s], of the body that is `touched.distance` in front of the hand, which must be less
+  /// than the probe's `length` [m]. Keeps no reference to `fork`.
   Probe(double length, const rod::ForkSettings& fork, const AxisHit& touched, double now);
 
-  /// Updates the touch of the same body.
+  /// Updates the point of contact on the same body.
   void touch(const AxisHit& touched);
   void set_springs(const rod::ForkSettings& fork);
-  /// The hand's motion; it must cover the steps that follow.
+  /// Sets the hand's motion, which must cover the following steps.
   void set_hand(const motion::MotionSegment& hand) { hand_ = hand; }
   const motion::MotionSegment& hand() const { return hand_; }
 
@@ -41,28 +42,28 @@ class Probe final : public dynamics::Coupling {
   void pull(const math::Pack& t, const dynamics::RelativeMotion<math::Pack>& A_O,
             dynamics::Pull<math::Pack>& pull) const override;
   Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
-  /// Follows the body to time `t` [s], at which `object` is its motion.
+  /// Follows the body to time `t` [s]; `object`: its motion at that time.
   void follow(double t, const motion::MotionState& object);
 
-  /// Sets the force to that of the springs in equilibrium, for a body that does not move.
+  /// Sets the force to the equilibrium of the springs, for a body that does not move.
   void press();
 
   double elastic_energy() const { return 0.5 * force_ * depth_; }
   const scene::Body* body() const { return body_; }
-  /// Exchanges all that changes while it touches the same body.
+  /// Saves or restores everything that changes while it touches the same body.
   void exchange(math::StateArchive& state) {
     state(since_, version_, k_, series_, c_, hand_, point_O_, normal_O_, depth_, force_);
   }
-  /// Fills in the state of the tool; `X_WH`: the hand.
+  /// Fills in the state of the tool. `X_WH`: pose of the hand.
   void describe(const RigidTransform& X_WH, ToolState& state) const;
 
  private:
-  /// The tip at the surface, as the hand sees it.
+  /// State of the contact between tip and surface.
   template <typename S>
   struct Touch {
-    S depth, rate;         ///< depth of the tip if both springs were rigid [m], [m/s]
-    math::Three<S> arm;    ///< from the object's centre
-    math::Three<S> speed;  ///< of the object there
+    S depth, rate;         ///< depth that the tip would have if both springs were rigid [m], and its rate [m/s]
+    math::Three<S> arm;    ///< contact point relative to the object's centre
+    math::Three<S> speed;  ///< velocity of the object there
     S force;
   };
   template <typename S>
@@ -75,7 +76,7 @@ class Probe final : public dynamics::Coupling {
   scene::Material material_;
   double since_;
   long version_ = 0;
-  double k_ = 0.0, series_ = 0.0;  ///< of the probe, and of it and the material [N/m]
+  double k_ = 0.0, series_ = 0.0;  ///< stiffness of the probe, and of probe and material in series [N/m]
   double c_ = 0.0;
   motion::MotionSegment hand_;
   Vector3d point_O_, normal_O_;

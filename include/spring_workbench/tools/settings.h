@@ -9,7 +9,8 @@
 
 namespace spring_workbench::tools {
 
-/// What a tool does at its limit: it lets go of the object, or slips in the hand and keeps pulling at the limit.
+/// Behaviour of a tool at its limit: it releases the object, or it slips in the hand and keeps pulling with the limit
+/// force.
 enum class LimitAction { let_go, slip };
 inline std::vector<std::string> names_of(LimitAction) { return {"let_go", "slip"}; }
 
@@ -20,18 +21,18 @@ struct LimitSettings {
   LimitAction action = LimitAction::let_go;                 ///< key `limit.action`
 };
 
-/// What a tool is calibrated to: nothing, each object when it is grasped, or all objects of the scene at once.
+/// What a tool is calibrated for: nothing, each object when it is grasped, or all objects of the scene together.
 enum class Calibration { none, object, world };
 inline std::vector<std::string> names_of(Calibration) { return {"none", "object", "world"}; }
 
-/// Response of a fork that is calibrated to an object to the weight of that object (paper, sections 3.1 and 3.2).
+/// Deformation of a fork calibrated to an object under the weight of that object (paper, sections 3.1 and 3.2).
 struct ObjectGoal {
   double sag = 0.1;     ///< key `calibration.object.sag`: static extension when hanging, and deflection when level, as
                         ///< fractions of L
-  double twist = 0.35;  ///< key `calibration.object.twist`: static twist at the lever of calibrated_length() [rad]
+  double twist = 0.35;  ///< key `calibration.object.twist`: static twist at the lever arm of calibrated_length() [rad]
 };
 
-/// Response of the one fork of a world to the weight of the heaviest object (paper, section 4).
+/// Deformation of the one fork for a scene under the weight of the heaviest object (paper, section 4).
 struct WorldGoal {
   double stretch = 0.3;  ///< key `calibration.world.stretch`: static extension when hanging, as a fraction of L
   double bend = 0.4;     ///< key `calibration.world.bend`: static deflection of the tip when level, as a fraction of L
@@ -39,7 +40,7 @@ struct WorldGoal {
   std::optional<double> heaviest;  ///< key `calibration.world.heaviest` [kg]; absent: that of the scene
 };
 
-/// Whether a released object keeps its twist or is set to rest.
+/// Whether a released object keeps its twist or starts from rest.
 enum class Release { thrown, dropped };
 inline std::vector<std::string> names_of(Release) { return {"thrown", "dropped"}; }
 
@@ -47,10 +48,12 @@ struct GraspSettings {
   Calibration calibrate = Calibration::none;  ///< key `calibrate`
   ObjectGoal object_goal;                     ///< keys `calibration.object.*`
   WorldGoal world_goal;                       ///< keys `calibration.world.*`
-  std::string object = "";             ///< key `grasp.object`: held from the first sample to the last; empty: by button
-  std::optional<RigidTransform> X_OE;  ///< key `grasp.tip_in_object` (x y z qx qy qz qw); absent: where the tip is
-  bool start_follow = false;           ///< key `start.follow`: move the object so that the grasp fits the first pose
-  Release release = Release::thrown;   ///< key `release`
+  std::string object =
+      "";  ///< key `grasp.object`: object that is held from the first sample on; empty: grasp by button
+  std::optional<RigidTransform>
+      X_OE;                   ///< key `grasp.tip_in_object` (x y z qx qy qz qw); absent: the tip's pose at the grasp
+  bool start_follow = false;  ///< key `start.follow`: move the object so that the grasp fits the first pose
+  Release release = Release::thrown;  ///< key `release`
 };
 
 }  // namespace spring_workbench::tools

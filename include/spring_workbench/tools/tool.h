@@ -5,13 +5,13 @@
 
 namespace spring_workbench::tools {
 
-/// The tools of doc/model.md, in the order in which the stylus' second button goes through them.
+/// The tools (doc/model.md), in the order in which the stylus' second button selects them.
 enum class Tool {
   spring,        ///< a spring-damper between the hand and the object's centre
-  spring_fork,   ///< the rod
+  spring_fork,   ///< an elastic rod that bends, stretches and twists
   spring_probe,  ///< a spring along its axis, which pushes
   direct,        ///< rigid, at the hand
-  ray,           ///< rigid, picked by a ray along z of the hand
+  ray,           ///< rigid; the object is selected by a ray along z of the hand
 };
 
 inline std::vector<std::string> names_of(Tool) { return {"spring", "spring_fork", "spring_probe", "direct", "ray"}; }

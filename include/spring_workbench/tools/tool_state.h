@@ -9,7 +9,7 @@
 
 namespace spring_workbench::tools {
 
-/// Average reading of an instrument over a window of time.
+/// Average of an instrument's reading over a time window.
 struct Reading {
   double mean = 0.0;
   double uncertainty = std::numeric_limits<double>::infinity();  ///< one standard deviation of the mean
@@ -27,32 +27,32 @@ struct ToolState {
   double length = 0.0;                               ///< rest length [m]
   rod::PerDof stiffness;                             ///< [N/m, N/m, N·m/rad]
   rod::PerDof damping_ratio;                         ///< –
-  rod::StrainVector strain;                          ///< all coordinates of the shape model; zero when nothing is held
+  rod::StrainVector strain;                          ///< all coordinates of the shape model; zero while nothing is held
   double stretch = 0.0;                              ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                              ///< twist angle [rad]
-  RigidTransform X_WS = RigidTransform::Identity();  ///< the stylus
-  RigidTransform X_WH = RigidTransform::Identity();  ///< the handle, as the hand has it: the stylus itself unless
+  RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus
+  RigidTransform X_WH = RigidTransform::Identity();  ///< pose of the handle in the hand: that of the stylus unless
                                                      ///< calibration or a regrasp has moved it
-  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< the proxy handle
-  RigidTransform X_WE = RigidTransform::Identity();        ///< the tip
+  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the proxy handle
+  RigidTransform X_WE = RigidTransform::Identity();        ///< pose of the tip
   Twist V_WE_W;                                            ///< of the tip, world axes
   Wrench tip_wrench_W;                                     ///< on the object at the tip, world axes [N, N·m]
   Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< of the held object, in world [J]
   double error_bound = 0.0;                                ///< bound of the run's error in position [m]
-  bool error_bounded = false;                              ///< whether it holds (doc/model.md, "Error bound")
+  bool error_bounded = false;                              ///< whether the bound is valid (doc/model.md, "Error bound")
   double force_scale = 1.0;                                ///< ratio of virtual to real force
   double weight = 0.0;                                     ///< reading as a scale: upward force on the object / g [vkg]
   double torque = 0.0;            ///< reading as a torque wrench: moment about the axis at the tip [N·m]
   Reading weight_average;         ///< [vkg]; filled in by ReadingAverage
   Reading torque_average;         ///< [N·m]; likewise
-  double stretching_force = 0.0;  ///< along the tool's axis at the handle, > 0: it is pulled out [N] (paper, section 4)
-  double bending_force = 0.0;     ///< across that axis [N]
-  double force_angle = 0.0;       ///< Φ of the force on the tool from that axis, 0 … π [rad]
+  double stretching_force = 0.0;  ///< force along the tool's axis at the handle, > 0 in tension [N] (paper, section 4)
+  double bending_force = 0.0;     ///< force perpendicular to that axis [N]
+  double force_angle = 0.0;       ///< angle Φ between that axis and the force on the tool, 0 … π [rad]
   double load = 0.0;              ///< load as a fraction of the scene's range of loads, 0 … 1 (LoadRange)
-  bool clutch = false;            ///< whether it is on: the hand moves without the tool
+  bool clutch = false;            ///< whether the clutch is on: the hand moves without the tool
   double material_stiffness = 0.0;              ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
 };

@@ -7,8 +7,8 @@
 
 namespace spring_workbench::validation {
 
-/// The words of an enum in files, parameters and services, in the order of its values. Each enum declares `names_of(E)`
-/// next to it.
+/// Names of the values of an enum in files, parameters and services, in order. Each enum declares a `names_of(E)` next
+/// to it.
 template <typename E>
 std::vector<std::string> names() {
   return names_of(E{});
@@ -19,7 +19,7 @@ std::string name_of(E value) {
   return names<E>().at(static_cast<std::size_t>(value));
 }
 
-/// The value called `name`. Throws InputError naming `where` and `key` if there is none.
+/// Returns the value called `name`. Throws InputError naming `where` and `key` if there is none.
 template <typename E>
 E named(const std::string& name, const std::string& where, const std::string& key) {
   const std::vector<std::string> all = names<E>();

@@ -8,7 +8,7 @@
 
 namespace spring_workbench::validation {
 
-/// Which numbers a field allows. NaN is never allowed.
+/// Rule for the numbers that a field accepts. NaN is never allowed.
 struct NumberRule {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();

@@ -4,7 +4,7 @@
 
 namespace spring_workbench::validation {
 
-/// The text with a space for every control character, for text from outside in a message.
+/// Replaces every control character by a space, for external text in a message.
 std::string one_line(std::string text);
 
 }  // namespace spring_workbench::validation

@@ -19,7 +19,8 @@ void write_file(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-/// A hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
+/// The motion of a hand as a motion file (doc/reference.md), rounded to 10 µm and 10 µrad, which is below the tracker's
+/// noise.
 std::string motion_text(const std::vector<motion::StylusSample>& motion, std::size_t hand) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
@@ -42,7 +43,7 @@ std::string path_of(const std::string& record, std::size_t hand) {
   return path.replace_filename(name).string();
 }
 
-/// Runs the trials and writes what was asked for.
+/// Runs the trials and writes the requested files.
 void run(const Options& options) {
   const scene::Scene scene = scene::load_scene(options.scene);
   if (scene.targets.empty()) validation::refuse(scene.path, "targets", "none", "at least one");

@@ -9,7 +9,7 @@
 namespace spring_workbench::assembly_trials {
 namespace {
 
-/// 97.5 % of the distribution lie below.
+/// The 97.5 % quantile of the distribution.
 template <typename Distribution>
 double quantile(const Distribution& distribution) {
   return boost::math::quantile(distribution, 0.975);
@@ -21,7 +21,7 @@ std::string text(const char* format, double a, double b, double c = 0.0) {
   return buffer;
 }
 
-/// Mean and half width of its interval.
+/// Mean and half width of its confidence interval.
 std::string mean(const std::vector<assembly::TaskScore>& scores, double scale,
                  const std::function<double(const assembly::TaskScore&)>& value) {
   const double n = static_cast<double>(scores.size());

@@ -7,10 +7,10 @@
 
 namespace spring_workbench::assembly_trials {
 
-/// The labels of the tools that are compared, in the order of the table.
+/// The labels of the compared tools, in the order of the table.
 std::vector<std::string> tool_labels();
 
-/// `base` with the tool called `label` in the hand.
+/// The settings `base` with the tool called `label`.
 simulation::SimulationSettings with_tool(const std::string& label, simulation::SimulationSettings base);
 
 }  // namespace spring_workbench::assembly_trials

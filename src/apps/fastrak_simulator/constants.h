@@ -2,9 +2,9 @@
 
 namespace spring_workbench::fastrak_simulator {
 
-// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
+// Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
 
-/// [s] between looks at `interrupted`. Longer: it ends later. Test: none: it ends later.
+/// Time between checks of `interrupted` [s]. If longer, the program exits later. Test: none: it only exits later.
 constexpr double longest_wait = 0.05;
 
 }  // namespace spring_workbench::fastrak_simulator

@@ -25,12 +25,12 @@ simulated_fastrak::PlayedMotion read_motion(const std::string& path) {
   return simulated_fastrak::PlayedMotion(samples);
 }
 
-/// Serves the host up to a moment of the wall's clock.
+/// Serves the host until a moment of the wall clock.
 void serve_until(simulated_fastrak::FastrakSimulator& simulator, steady_clock::time_point moment) {
   while (interrupted == 0) {
     const double left = duration<double>(moment - steady_clock::now()).count();
     if (left <= 0.0) break;
-    // Waits for the host in whole milliseconds; the rest is slept below, so that cycles are even.
+    // Waits for the host in whole milliseconds; the loop below sleeps for the rest, so that cycles are even.
     if (left > 1e-3) {
       simulator.serve(std::min(left - 1e-3, longest_wait));
     } else {
@@ -41,7 +41,7 @@ void serve_until(simulated_fastrak::FastrakSimulator& simulator, steady_clock::t
   }
 }
 
-/// Runs the device until the duration is over or somebody interrupts it.
+/// Runs the device until the duration is over or the program is interrupted.
 void run(const Options& options) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });

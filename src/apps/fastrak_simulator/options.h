@@ -8,23 +8,23 @@
 
 namespace spring_workbench::fastrak_simulator {
 
-/// What the command line asks for.
+/// Options of the command line.
 struct Options {
   std::vector<std::string> motions;  ///< paths; one for each station
   std::string link;                  ///< path of a link to the pseudo-terminal; empty: none
   double rate = 120.0;               ///< records per second, of all stations together [Hz]
-  double speed = 1.0;                ///< of the device's clock against the wall's
-  double duration = 0.0;             ///< of the device's clock [s]; 0: until it is interrupted
+  double speed = 1.0;                ///< rate of the device's clock relative to the wall clock
+  double duration = 0.0;             ///< duration by the device's clock [s]; 0: until interrupted
   std::vector<int> switches{1};      ///< stations whose switch works
   std::vector<simulated_fastrak::Fault> faults;
   int seed = 1;
 };
 
-/// Nothing where help is asked for. Throws InputError for everything that cannot be used. Words with := in them
-/// (roslaunch gives some) are not looked at.
+/// Parses the command line. Returns nothing for `--help`. Throws InputError for invalid arguments. Arguments that
+/// contain := (added by roslaunch) are ignored.
 std::optional<Options> parse_options(int argc, char** argv);
 
-/// What `--help` prints.
+/// The text that `--help` prints.
 std::string help_text();
 
 }  // namespace spring_workbench::fastrak_simulator

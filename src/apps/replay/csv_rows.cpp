@@ -8,7 +8,7 @@
 namespace spring_workbench::replay {
 namespace {
 
-/// One line of a CSV file.
+/// A row of a CSV file.
 class Row {
  public:
   Row() {
@@ -29,7 +29,7 @@ class Row {
     if (q.w() < 0.0) q.coeffs() = -q.coeffs();
     return add(X.translation()).add(q.coeffs());
   }
-  /// Quoted where it has to be (RFC 4180).
+  /// Adds a text, quoted if necessary (RFC 4180).
   Row& add(const std::string& text) {
     separate();
     if (text.find_first_of(",\"\r\n") == std::string::npos) {

@@ -38,7 +38,7 @@ std::string fork_path(const std::string& path) {
   return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
 }
 
-/// Of the object that the probe touches.
+/// Pose of the object that the probe touches.
 RigidTransform touched_pose(const simulation::Simulation& simulation, const tools::ToolState& tool) {
   for (const bodies::BodyState& object : simulation.objects()) {
     if (object.name == tool.touched) return object.X_WO;
@@ -46,7 +46,7 @@ RigidTransform touched_pose(const simulation::Simulation& simulation, const tool
   return RigidTransform::Identity();
 }
 
-/// A row for each hand: the first, and those that are present or have one of `motions`.
+/// Rows of RUN.fork.csv, one for each hand that is the first, is present, or has one of `motions`.
 class ForkRows {
  public:
   std::string at(double t, const simulation::Simulation& simulation, const std::map<std::size_t, Motion>& motions) {
@@ -82,7 +82,7 @@ void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_
   for (const ButtonEvent& event : of_hand.buttons) feed.push_button(event.t, event.pressed, hand);
 }
 
-/// Goes through a live run again; a line for each time to which it was committed, and for each change.
+/// Replays a live run; writes rows for each committed time and after each change.
 Summary run_journal(const Options& options, const std::vector<live::Entry>& journal) {
   config::OutputFile objects(options.out);
   config::OutputFile fork(fork_path(options.out));
@@ -92,7 +92,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   Summary summary;
   bool first = true;
   const auto load = [&](const std::string& scene) {
-    return load_scene(std::exchange(first, false) ? options.scene : scene);  // the first is given
+    return load_scene(std::exchange(first, false) ? options.scene : scene);  // `--scene` replaces the first one
   };
   live::Replayer replayer(load, options.settings);
   const auto started = std::chrono::steady_clock::now();
@@ -119,7 +119,8 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   return summary;
 }
 
-/// Loads the scene, moves the hand through it and writes both files; if it throws, no file is left.
+/// Loads the scene, runs the simulation with the recorded hands and writes both files; if it throws, it leaves no
+/// files.
 Summary run(const Options& options) {
   if (!options.bag.empty()) {
     const std::vector<live::Entry> journal = read_journal(options.bag);

@@ -14,27 +14,27 @@ struct ButtonEvent {
   bool pressed = false;
 };
 
-/// A recorded hand. Times in s from the first sample; stamps as recorded, also repeated and backward ones.
+/// A recorded hand. Times are in s from the first sample; stamps are as recorded, including repeated and backward ones.
 struct Motion {
   std::vector<motion::PoseSample> samples;  ///< never empty
-  std::vector<ButtonEvent> buttons;         ///< changes of the grasp button, which starts up
-  std::vector<ButtonEvent> next_tool;       ///< the same of the button for the next tool
-  std::vector<ButtonEvent> clutch;          ///< and of the clutch
+  std::vector<ButtonEvent> buttons;         ///< changes of the grasp button, which is up at the start
+  std::vector<ButtonEvent> next_tool;       ///< the same for the button for the next tool
+  std::vector<ButtonEvent> clutch;          ///< the same for the clutch
 };
 
-/// Appends that the button is down or up from `t` on, but no earlier than the last change, if that is a change.
+/// Appends the state of a button from time `t` [s] on, if it is a change; the time is at least that of the last change.
 void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 
-/// Everything that the source has.
+/// Reads the source to its end.
 Motion read_motion(motion::StylusSource& source);
 
 /// The hands of a bag, by number from 0: the transforms `parent` → `child` with buttons 0, 1 and `clutch_button` of
-/// stylus/joy, then `child`_2 with stylus_2/joy, and so on. Times from the first sample of all. Throws InputError.
+/// stylus/joy, then `child`_2 with stylus_2/joy, and so on. Times are from the first sample of all hands. Throws
+/// InputError.
 std::map<std::size_t, Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
                                        int clutch_button);
 
-/// What a live run published on ~accepted and ~changes, in order; empty where the bag has none of it. Throws
-/// InputError.
+/// The messages of a live run on ~accepted and ~changes, in order; empty if the bag has none. Throws InputError.
 std::vector<live::Entry> read_journal(const std::string& path);
 
 }  // namespace spring_workbench::replay

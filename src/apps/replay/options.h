@@ -9,11 +9,11 @@
 
 namespace spring_workbench::replay {
 
-/// What the command line asks for.
+/// Options of the command line.
 struct Options {
   std::string scene;                 ///< path or package:// URI of a URDF
-  std::vector<std::string> motions;  ///< paths, one a stylus; none where `bag` is given
-  std::string bag;                   ///< path; empty where `motions` are given
+  std::vector<std::string> motions;  ///< paths, one per stylus; empty if `bag` is given
+  std::string bag;                   ///< path; empty if `motions` are given
   std::string parent, child;         ///< frames of the stylus' transform in the bag
   std::string out;                   ///< path of the CSV file of the objects
   double rate = 50.0;                ///< output times per second [Hz]
@@ -21,11 +21,11 @@ struct Options {
   hand_input::InputSettings input;
 };
 
-/// Reads the command line, and the settings file that it names; nothing where help is asked for. Throws InputError for
-/// everything that cannot be used.
+/// Reads the command line and the settings file that it names. Returns nothing for `--help`. Throws InputError for
+/// invalid arguments or settings.
 std::optional<Options> parse_options(int argc, char** argv);
 
-/// What `--help` prints.
+/// The text that `--help` prints.
 std::string help_text();
 
 }  // namespace spring_workbench::replay

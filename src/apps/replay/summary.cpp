@@ -10,10 +10,10 @@
 namespace spring_workbench::replay {
 namespace {
 
-/// A word of the program's own, which needs no escapes.
+/// Quotes a word that needs no escapes.
 std::string quoted(const std::string& word) { return '"' + word + '"'; }
 
-/// JSON has no word for what is not finite.
+/// A number in JSON, which has no infinities or NaN.
 std::string number(double value) {
   if (!std::isfinite(value)) return "null";
   std::ostringstream out;

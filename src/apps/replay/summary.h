@@ -9,23 +9,23 @@
 
 namespace spring_workbench::replay {
 
-/// What a whole run did.
+/// Summary of a run.
 class Summary {
  public:
-  std::size_t samples = 0;      ///< of all hands
-  hand_input::GateCounts gate;  ///< of them
+  std::size_t samples = 0;      ///< number of samples of all hands
+  hand_input::GateCounts gate;  ///< gate results of these samples
   hand_input::ReacquisitionCounts hand;
   simulation::AdvanceReport advance;
   int outputs = 0;                ///< output times
   double wall_time = 0.0;         ///< [s]
-  live::ReplayedChanges changes;  ///< of a live run
-  std::uint64_t state_hash = 0;   ///< of the simulation at the end
+  live::ReplayedChanges changes;  ///< changes of a replayed live run
+  std::uint64_t state_hash = 0;   ///< hash of the simulation's state at the end
 
   void add(const hand_input::GateCounts& of_hand);
   void add(const hand_input::ReacquisitionCounts& of_hand);
-  /// Counts the pairs in contact now that were not at the call before.
+  /// Counts the pairs in contact that were not in contact at the previous call.
   void add_contacts(const std::vector<contact::ContactState>& contacts);
-  /// One line of JSON, as `help_text()` describes it.
+  /// One line of JSON, as described by `help_text()`.
   std::string json() const;
 
  private:

@@ -9,7 +9,7 @@
 namespace spring_workbench::ros_common {
 
 void log_in_background() {
-  ROSCONSOLE_AUTOINIT;  // which makes the appender that writes to the terminal
+  ROSCONSOLE_AUTOINIT;  // creates the appender that writes to the terminal
   const log4cxx::LoggerPtr logger = log4cxx::Logger::getLogger(ROSCONSOLE_ROOT_LOGGER_NAME);
   const log4cxx::AsyncAppenderPtr queue(new log4cxx::AsyncAppender);
   queue->setBlocking(false);

@@ -5,7 +5,7 @@
 namespace spring_workbench::ros_common {
 namespace {
 
-/// Names the thread that calls it.
+/// Callback that names the thread in which it runs.
 class Naming : public ros::CallbackInterface {
  public:
   explicit Naming(const std::string& name) : name_(name) {}

@@ -4,19 +4,19 @@
 
 namespace spring_workbench::ros_common {
 
-// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
+// Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
 
-/// [s] between two readings of a simulated clock. Longer: cycles begin later. Test: none: later cycles give the same
-/// states.
+/// Time between two readings of a simulated clock [s]. If longer, cycles start later. Test: none: later cycles give the
+/// same states.
 constexpr double clock_poll = 1e-3;
-/// [s] for which a simulated clock that has stopped is waited for. Longer: callbacks of a paused bag wait longer. Test:
-/// none: nothing but the node's answers get slower.
-constexpr double stopped_clock_patience = 0.1;
-/// [s] that one reading of the clock adds to attended time at most. Longer: messages that wait while the machine is
-/// busy count as silence. Test: faults_test.py::test_after_a_stopped_processor_time_is_the_hands_again.
+/// Maximum wait for a simulated clock that has stopped [s]. If longer, callbacks wait longer while a bag is paused.
+/// Test: none: only the node's responses get slower.
+constexpr double stopped_clock_timeout = 0.1;
+/// Maximum increase of attended time by one reading of the clock [s]. If longer, messages that wait while the machine
+/// is busy count as silence. Test: faults_test.py::test_after_a_stopped_processor_time_is_the_hands_again.
 constexpr double longest_attended = 0.01;
-/// [ns] between the readings of two clocks above which both are read again. Longer: stamps jitter more. Test: none:
-/// only an interrupted process meets it.
+/// Time between the readings of two clocks above which both are read again [ns]. If longer, stamps jitter more. Test:
+/// none: it only matters if the process is interrupted.
 constexpr std::int64_t clocks_apart = 50'000;
 /// [s] of attended time in which the other stream may follow a time jump. Less: messages that a busy player sends late
 /// are lost. Test: tools_test.py::test_both_start_anew_when_time_jumps_back.

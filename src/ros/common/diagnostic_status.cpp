@@ -24,7 +24,7 @@ void add_stream(const motion::StreamFigures& stream, DiagnosticStatusBuilder& st
       .add("rate [Hz]", stream.interval > 0.0 ? 1.0 / stream.interval : 0.0)
       .add("jitter of stamps [s]", stream.stamp_jitter)
       .add("jitter of receipt [s]", stream.receipt_jitter)
-      .add("age of newest sample when it came [s]", stream.age)
+      .add("age of newest sample on arrival [s]", stream.age)
       .add("longest gap [s]", stream.longest_gap);
 }
 

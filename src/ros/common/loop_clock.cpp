@@ -23,7 +23,7 @@ struct Reading {
   std::int64_t ros, steady;
 };
 
-/// Reads both clocks one after the other, and again if the process was interrupted in between.
+/// Reads both clocks in succession, and again if the process was interrupted in between.
 Reading read_clocks() {
   const auto steady = [] { return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count(); };
   Reading reading{};
@@ -36,7 +36,7 @@ Reading read_clocks() {
 }
 
 void sleep_until_simulated(double t) {
-  const double give_up = steady_time() + stopped_clock_patience, begin = loop_time();
+  const double give_up = steady_time() + stopped_clock_timeout, begin = loop_time();
   for (double now = begin; now >= begin && now < t && steady_time() < give_up && ros::ok(); now = loop_time()) {
     std::this_thread::sleep_for(duration<double>(clock_poll));
   }
@@ -87,17 +87,17 @@ void sleep_until_loop_time(double t) {
 void Alarm::ring() {
   const std::lock_guard<std::mutex> lock(mutex_);
   rung_ = true;
-  bell_.notify_one();
+  condition_.notify_one();
 }
 
 void Alarm::sleep_until(double t) {
   const bool simulated = ros::Time::isSimTime();
-  const double give_up = steady_time() + stopped_clock_patience, begin = loop_time();
+  const double give_up = steady_time() + stopped_clock_timeout, begin = loop_time();
   std::unique_lock<std::mutex> lock(mutex_);
-  // In slices: a simulated clock has to be looked at, and time counts as attended only while it is.
+  // Sleep in slices, because a simulated clock has to be polled, and time counts as attended only while it is.
   for (double now = begin; !rung_ && now < t && ros::ok(); now = loop_time()) {
     if (simulated && (now < begin || steady_time() >= give_up)) break;
-    bell_.wait_for(lock, duration<double>(simulated ? clock_poll : std::min(t - now, longest_attended)));
+    condition_.wait_for(lock, duration<double>(simulated ? clock_poll : std::min(t - now, longest_attended)));
   }
   rung_ = false;
 }

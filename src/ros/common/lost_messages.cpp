@@ -9,8 +9,8 @@
 
 namespace spring_workbench::ros_common {
 
-/// roscpp counts them itself, and reports the counts of present connections only through the node's own API:
-/// of publishers, subscribers [topic, [number, bytes, messages, lost, …] of each connection], services.
+/// roscpp counts lost messages but reports the counts, for open connections, only through the node's own API:
+/// publishers, subscribers [topic, [number, bytes, messages, lost, …] per connection], services.
 diagnostic_msgs::DiagnosticStatus LostMessages::report(const std::string& name) {
   XmlRpc::XmlRpcValue caller;
   caller[0] = name;

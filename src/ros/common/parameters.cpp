@@ -4,7 +4,7 @@
 
 namespace spring_workbench::ros_common {
 YAML::Node to_yaml(const XmlRpc::XmlRpcValue& value, const std::string& key) {
-  XmlRpc::XmlRpcValue copy = value;  // its readers are not const
+  XmlRpc::XmlRpcValue copy = value;  // XmlRpcValue's conversions are not const
   YAML::Node node;
   switch (copy.getType()) {
     case XmlRpc::XmlRpcValue::TypeBoolean:

@@ -15,7 +15,7 @@ int take_realtime_priority(int priority) {
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
   if (error == 0) return priority;
   ROS_WARN_STREAM("realtime_priority: " << priority << " is not permitted (" << std::strerror(error)
-                                        << "), so the loop runs without; a line 'USER - rtprio " << priority
+                                        << "), so the loop runs without it; a line 'USER - rtprio " << priority
                                         << "' in /etc/security/limits.conf permits it");
   return 0;
 }

@@ -10,7 +10,7 @@ namespace spring_workbench::ros_common {
 
 std::optional<ros::Time> SimulatedClock::moment_of(const ros::Time& stamp, const Stream& stream, double max_age) {
   const ros::Time now = ros::Time::now();
-  // The clock went back; or the whole way back was missed, and only the stamps show it.
+  // The clock jumped back; or the jump was missed, and only the stamps show it.
   const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > slip;
   const bool stamps_jumped =
       !stream.newest.isZero() && (stream.newest - stamp).toSec() > slip && (stream.newest - now).toSec() > slip;
@@ -19,13 +19,13 @@ std::optional<ros::Time> SimulatedClock::moment_of(const ros::Time& stamp, const
     jumped_at_ = local_time().attended;
   }
   if (!jumped_) last_now_ = now;
-  const bool goes_on =
+  const bool continues =
       !stream.newest.isZero() && stamp > stream.newest && std::abs((last_now_ - stamp).toSec()) < max_age;
-  if (jumped_ && !goes_on) return std::nullopt;
+  if (jumped_ && !continues) return std::nullopt;
   return last_now_;
 }
 
-bool SimulatedClock::is_patient() const { return local_time().attended - jumped_at_ < jump_patience; }
+bool SimulatedClock::is_waiting() const { return local_time().attended - jumped_at_ < jump_timeout; }
 
 double SimulatedClock::restart() {
   const ros::Time now = ros::Time::now();

@@ -35,7 +35,8 @@ class ContactSound {
         volume ? config::read_number(volume, where, "volume", validation::between(0.0, 1.0)) : 0.8);
     output_ = file ? sound::open_wav_file(config::read_string(file, where, "file")) : sound::open_audio_device();
     ros::NodeHandle heard = contacts_thread_.handle(node);
-    constexpr std::uint32_t unbounded = 0;  // no impact is lost: they are taken faster than anybody sends them
+    constexpr std::uint32_t unbounded =
+        0;  // so that no impact is lost; messages are processed faster than they are sent
     subscriber_ = heard.subscribe("contacts", unbounded, &ContactSound::on_contacts, this);
     scene_subscriber_ = heard.subscribe("scene_description", 1, &ContactSound::on_scene, this);
     timer_ = node.createSteadyTimer(ros::WallDuration(render_period), &ContactSound::play, this);
@@ -50,7 +51,7 @@ class ContactSound {
   ContactSound& operator=(const ContactSound&) = delete;
 
  private:
-  /// A body rings as a cube with its mass and radius of gyration.
+  /// A body rings like a cube with the same mass and radius of gyration.
   void on_scene(const SceneDescription::ConstPtr& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
     bodies_.clear();
@@ -60,7 +61,7 @@ class ContactSound {
     }
   }
 
-  /// Both bodies of an impact ring, as far as they can move; without a description, a small wooden block does.
+  /// Both bodies of an impact ring if they are movable; without a scene description, a small wooden block rings.
   void strike(const Contact& contact) {
     bool rings = false;
     for (const std::string& name : {contact.object, contact.other}) {
@@ -89,7 +90,7 @@ class ContactSound {
     const auto count =
         static_cast<std::size_t>(std::max(0.0, now - played_until_) * sound::ContactSynthesizer::sample_rate);
     played_until_ += static_cast<double>(count) / sound::ContactSynthesizer::sample_rate;
-    output_->write(render(count, now));  // may wait for the disk
+    output_->write(render(count, now));  // may block on the disk
   }
 
   std::vector<float> render(std::size_t count, double now) {
@@ -98,7 +99,7 @@ class ContactSound {
     return synthesizer_->render(count);
   }
 
-  std::mutex mutex_;  ///< of the synthesizer, the bodies and when they were heard of last
+  std::mutex mutex_;  ///< guards the synthesizer, the bodies and the time of their last message
   std::unique_ptr<sound::ContactSynthesizer> synthesizer_;
   std::unique_ptr<sound::AudioOutput> output_;
   std::map<std::string, sound::SoundingBody> bodies_;

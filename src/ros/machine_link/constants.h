@@ -5,13 +5,13 @@
 
 namespace spring_workbench::machine_link {
 
-// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
+// Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
 
-/// messages of a sensor that wait while the machine is busy. Fewer: a force between two of them is lost. Test:
+/// Queue size for a sensor's messages while the machine is busy. If smaller, measurements are lost. Test:
 /// machine_link_test.py::test_every_measurement_is_taken at 1.
 constexpr std::uint32_t input_queue = 2000;
-/// measurements of one sensor that wait while the loop is stalled; further ones are rejected. Fewer: some are lost if
-/// it is stalled for a moment. Test: Inbox.HoldsNoMoreThanItMay.
-constexpr std::size_t most_waiting = 20000;
+/// Maximum number of measurements of one sensor that wait while the loop is stalled; further ones are rejected. If
+/// smaller, some are lost in a short stall. Test: Inbox.HoldsNoMoreThanItsCapacity.
+constexpr std::size_t max_waiting = 20000;
 
 }  // namespace spring_workbench::machine_link

@@ -69,7 +69,7 @@ ProbeReading ToolOutput::reading_of(const tools::ToolState& tool) const {
   return message;
 }
 
-/// Sent while it vibrates, and once more when that ends.
+/// Publishes while the tool vibrates, and once more at the end.
 void ToolOutput::vibrate(const live::View& view, const tools::ToolState& tool) {
   if (joy_feedback_.getNumSubscribers() == 0) return;
   double impulse = 0.0;
@@ -77,7 +77,7 @@ void ToolOutput::vibrate(const live::View& view, const tools::ToolState& tool) {
     const bool of_held = contact.object == tool.held_object || contact.other == tool.held_object;
     if (of_held && contact.phase == contact::ContactPhase::started) impulse += contact.impulse;
   }
-  const double intensity = vibration_.feel(view.time, tool, impulse);
+  const double intensity = vibration_.update_intensity(view.time, tool, impulse);
   if (std::exchange(vibrates_, intensity) == 0.0 && intensity == 0.0) return;
   sensor_msgs::JoyFeedbackArray message;
   message.array.resize(1);

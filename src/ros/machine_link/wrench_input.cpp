@@ -24,7 +24,7 @@ WrenchInput::WrenchInput(ros::NodeHandle private_node, std::size_t styluses, con
       world_frame_(world_frame),
       max_age_(max_age),
       wake_(std::move(wake)),
-      sensors_(styluses, {"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(most_waiting), {}}) {
+      sensors_(styluses, {"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(max_waiting), {}}) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
     Sensor& sensor = sensors_[hand];
@@ -44,7 +44,7 @@ void WrenchInput::add_to(live::HandEvents& events) {
   }
 }
 
-/// By the stamp if it fits the present time, otherwise now [ns].
+/// The local time of a stamp if it is close to the present time, otherwise the present time [ns].
 std::int64_t WrenchInput::local_stamp(Sensor& sensor, const ros::Time& stamp) const {
   if (!ros::Time::isSimTime())
     return sensor.clock.local_or_now(ros_common::nanoseconds_of(stamp), ros_common::wall_moment());
@@ -75,7 +75,7 @@ void WrenchInput::on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& 
     return rejections_.add("invalid value", error.what());
   }
   if (sensor.came.is_full()) {
-    return rejections_.add("the loop stands", sensor.topic + ": the loop stands for too long to take more");
+    return rejections_.add("the loop is stalled", sensor.topic + ": the loop is stalled and accepts no input");
   }
   event.stamp = local_stamp(sensor, message.header.stamp);
   sensor.came.put(event);
@@ -94,7 +94,7 @@ void WrenchInput::report(int timeouts, std::vector<diagnostic_msgs::DiagnosticSt
     rejected += count;
   }
   if (timeouts > std::exchange(reported_timeouts_, timeouts)) {
-    status.raise(DiagnosticStatus::WARN, "no external wrench came in time: it was set to zero");
+    status.raise(DiagnosticStatus::WARN, "no external wrench arrived in time, so it was set to zero");
   }
   if (rejected > std::exchange(reported_rejected_, rejected)) {
     status.raise(DiagnosticStatus::WARN, "external wrenches rejected");

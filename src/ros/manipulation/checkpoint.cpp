@@ -24,7 +24,7 @@ Checkpoint::~Checkpoint() {
   file_timer_.stop();
   try {
     if (file_) file_->remove();
-  } catch (const std::exception&) {  // logged before: it could not be written either
+  } catch (const std::exception&) {  // already logged when writing failed
   }
   master_.deleteParam(kKey);
 }
@@ -70,10 +70,10 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
     if (text.empty()) return;
     on_master_.resume(text, where, scene_roots);
     ROS_WARN_STREAM("resuming from the state of the node that was killed (" << where << "); nothing is held");
-  } catch (const std::exception& error) {  // a broken one must not keep the node from starting
+  } catch (const std::exception& error) {  // a broken checkpoint must not keep the node from starting
     ROS_WARN_STREAM("the checkpoint is ignored: " << validation::one_line(error.what()));
-    if (from_file && text.empty()) file_error_ = error.what();  // what is not ours stays, and is not logged again
-    if (from_file && !text.empty()) file_->set_aside();         // another run may need it
+    if (from_file && text.empty()) file_error_ = error.what();  // a foreign file is left alone, and not logged again
+    if (from_file && !text.empty()) file_->set_aside();         // keep it, because another run may need it
   }
 }
 

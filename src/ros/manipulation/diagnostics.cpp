@@ -18,7 +18,7 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
   if (input.messages == 0 && senders.empty()) return "no publisher on /tf: is tracker_driver, or a bag, running?";
   if (input.messages == 0) {
     return validation::join(senders) +
-           " should send /tf, but nothing comes: is ROS_IP or ROS_HOSTNAME set on the sender's host, and "
+           " should send /tf, but nothing arrives: is ROS_IP or ROS_HOSTNAME set on the sender's host, and "
            "is the device on?";
   }
   if (input.frames.count(stylus_frame) == 0) {
@@ -34,7 +34,7 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
          << " s: are the clocks of two hosts apart, or is a bag played without --clock and use_sim_time?";
     return text.str();
   }
-  return "all samples are rejected, most of them as: " + most->first;
+  return "all samples are rejected, most often as: " + most->first;
 }
 
 std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const std::vector<TrackerInput>& styluses,
@@ -116,8 +116,8 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("waits for unsent messages", loop.waits)
       .add("prediction error, 99 % [m]", loop.prediction_error)
       .add("real-time priority", loop.realtime_priority);
-  status.add("since the master answered [s]", loop.master_silence);
-  if (loop.master_silence > master_patience) {
+  status.add("time since the master's last reply [s]", loop.master_silence);
+  if (loop.master_silence > master_timeout) {
     status.raise(DiagnosticStatus::WARN,
                  "the ROS master does not answer: present connections stay, new ones are impossible");
   }
@@ -126,7 +126,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
     status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");
-  if (loop.waits > last_loop_.waits) status.raise(DiagnosticStatus::WARN, "the loop waits: its messages take too long");
+  if (loop.waits > last_loop_.waits) status.raise(DiagnosticStatus::WARN, "the loop waits: publishing takes too long");
   if (loop.time_skipped > last_loop_.time_skipped) status.raise(DiagnosticStatus::WARN, "time was skipped");
   if (loop.cycles_behind > last_loop_.cycles_behind)
     status.raise(DiagnosticStatus::WARN, "behind: simulation is slower than the motion of the hands");

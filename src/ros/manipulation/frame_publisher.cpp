@@ -28,7 +28,7 @@ void FramePublisher::publish(const live::View& view, const ros::Time& stamp) {
   message_ = boost::make_shared<tf2_msgs::TFMessage>();
   add_tools(view);
   add_objects(view);
-  publisher_.publish(message_);  // shared with the subscription of this node
+  publisher_.publish(message_);  // shared with this node's own subscription
 }
 
 void FramePublisher::name_frames(const live::View& view) {

@@ -22,7 +22,7 @@ std::vector<std::string> senders_of_tf(const ros_common::MasterWatch::Answer& an
   return senders;
 }
 
-/// The folders that are given, and that of the scene at the start.
+/// The given folders and the folder of the initial scene.
 std::vector<std::string> scene_roots(const ManipulationParameters& parameters, live::SimulationRunner& runner) {
   std::vector<std::string> roots = parameters.scene_roots;
   runner.locked([&](const simulation::Simulation& simulation) {
@@ -72,7 +72,7 @@ ManipulationNode::~ManipulationNode() {
   stop_ = true;
   alarm_.ring();
   physics_.join();
-  // What their callbacks use is destroyed next.
+  // Their callbacks use members that are destroyed next.
   for (ros_common::CallbackThread* thread : {&input_thread_, &master_thread_, &disk_thread_}) thread->stop();
 }
 
@@ -85,12 +85,12 @@ void ManipulationNode::run_physics() {
     while (!stop_ && run_step(std::min(begin, due))) continue;
     const double now = ros_common::loop_time();
     if (now >= due) due = due + period > now ? due + period : now + period;
-    due = std::min(due, now + period);  // the clock may have gone back
+    due = std::min(due, now + period);  // the clock may have jumped back
     alarm_.sleep_until(due);
   }
 }
 
-/// Whether there is more to do at once. `begin`: when this was due, or a sample woke the thread.
+/// Runs a step; returns whether more is due immediately. `begin`: time at which it was due or a sample came [s].
 bool ManipulationNode::run_step(double begin) {
   const hand_input::LocalTime local = ros_common::local_time();
   live::HandEvents events;
@@ -98,7 +98,7 @@ bool ManipulationNode::run_step(double begin) {
   wrenches_.add_to(events);
   const live::CycleReport report = runner_.cycle(events, local);
   for (std::size_t hand = 0; hand < inputs_.size(); ++hand) inputs_[hand].count_rejected(report.rejected[hand]);
-  // In simulated time the clock may have gone on by itself.
+  // A simulated clock may have advanced in the meantime.
   const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
   if (const double now = ros_common::steady_time(); !report.more || show_times_.due(now)) {
     outbox_.take_shown(parameters_.display_latency, local);
@@ -120,7 +120,7 @@ void ManipulationNode::count(const live::CycleReport& report, bool deadline_miss
   loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
 }
 
-void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
+void ManipulationNode::publish_diagnostics(const ros::SteadyTimerEvent&) {
   place_workbench();
   runner_.note_state();
   std::unique_lock<std::mutex> loop_lock(loop_mutex_);

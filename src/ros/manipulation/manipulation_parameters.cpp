@@ -55,7 +55,7 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   take_frame(rest, where, "stylus_frame", result.stylus_frame);
   hand_input::take_input_settings(rest, where, result.input);
   ros_common::take(rest, "resume");  // see Checkpoint
-  ros_common::take(rest, "live");    // what dynamic_reconfigure left there; the simulation starts from its own settings
+  ros_common::take(rest, "live");    // left there by dynamic_reconfigure; the simulation starts from its own settings
   simulation::apply_settings(rest, where, result.simulation);
   return result;
 }

@@ -14,15 +14,15 @@
 
 namespace spring_workbench::manipulation {
 
-// What the core says as messages: same frames, same units.
+// Conversion of the core's types to messages, in the same frames and units.
 ObjectState to_message(const bodies::BodyState& object);
-/// `fork_diameter`: of the coil, as a fraction of the rest length.
+/// `fork_diameter`: diameter of the coil as a fraction of the rest length.
 ForkState to_message(const tools::ToolState& tool, double fork_diameter);
 TaskState to_message(const std::vector<assembly::Placement>& placements, const assembly::TaskScore& score);
 Contacts to_message(const std::vector<contact::ContactState>& contacts);
 Accepted to_message(const hand_input::Accepted& accepted);
 Change to_message(const live::Change& change);
-/// Everything but the times of the cycle, `integrator` and `deadline_missed`, which the core does not know.
+/// Fills in everything except the cycle's times, `integrator` and `deadline_missed`, which the core does not know.
 StepReport to_message(const simulation::AdvanceReport& report);
 
 }  // namespace spring_workbench::manipulation

@@ -27,7 +27,7 @@ void ObjectsMessage::write(const std_msgs::Header& header, const live::SharedSta
   const Bytes& newest = kept_[newest_];
   newest_ = (newest_ + 1) % kept_.size();
   Bytes& oldest = kept_[newest_];
-  if (oldest.all.use_count() > 1) {  // not sent yet
+  if (oldest.all.use_count() > 1) {  // roscpp has not sent it yet
     oldest = newest;
     const std::vector<std::uint8_t>& all = *newest.all;
     const std::size_t body = newest.ends.front();  // roscpp may be writing into the header
@@ -35,7 +35,7 @@ void ObjectsMessage::write(const std_msgs::Header& header, const live::SharedSta
     oldest.all->reserve(all.size());
     oldest.all->insert(oldest.all->end(), all.begin() + static_cast<std::ptrdiff_t>(body), all.end());
   }
-  std::atomic_thread_fence(std::memory_order_acquire);  // behind the thread that has sent it
+  std::atomic_thread_fence(std::memory_order_acquire);  // synchronises with the thread that sent it
   oldest.write(header, objects);
 }
 
@@ -56,7 +56,7 @@ void ObjectsMessage::Bytes::write(const std_msgs::Header& header, const live::Sh
     const bool known = part + 1 < ends.size();
     if (!known || !objects.shares(part, written)) {
       const std::uint32_t length = length_of(*objects.parts()[part]);
-      if (!known || ends[part + 1] != begin + length) {  // other names: so all that follows is at another place
+      if (!known || ends[part + 1] != begin + length) {  // names changed, so all following bytes move
         ends.resize(part + 1);
         ends.push_back(begin + length);
         all->resize(begin + length);

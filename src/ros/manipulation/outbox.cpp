@@ -17,14 +17,14 @@ Outbox::~Outbox() {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
   }
-  bell_.notify_one();
+  condition_.notify_one();
   thread_.join();
 }
 
 bool Outbox::Repeat::due(const live::Moment& moment) {
   const ros::Time new_stamp = ros_common::stamp_of(moment.began ? std::make_optional(moment.stamp) : std::nullopt);
   const double steady = ros_common::steady_time();
-  // Before the first sample the stamp goes on by itself.
+  // Before the first sample the stamp advances by itself.
   const bool same = moment.revision == revision && (new_stamp == stamp || !moment.began);
   if (same && steady < sent + repeat_after) return false;
   *this = {new_stamp, moment.revision, steady};
@@ -37,7 +37,7 @@ void Outbox::take_shown(double latency, const hand_input::LocalTime& now) {
   if (!shown) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   shown_ = ShownState{std::move(*shown), shown_due_.stamp, now.loop};
-  bell_.notify_one();
+  condition_.notify_one();
 }
 
 bool Outbox::take_committed(const live::CycleReport& report, double deadline) {
@@ -47,7 +47,7 @@ bool Outbox::take_committed(const live::CycleReport& report, double deadline) {
   if (!committed) return false;
   std::unique_lock<std::mutex> lock(mutex_);
   committed_.put({std::move(*committed), committed_due_.stamp, report, deadline}, lock);
-  bell_.notify_one();
+  condition_.notify_one();
   return true;
 }
 
@@ -56,14 +56,14 @@ std::size_t Outbox::waits() {
   return committed_.waits();
 }
 
-/// Nothing wakes it for the journal, which is looked at whenever a state is sent, and at least as often as a
-/// state is repeated.
+/// The journal does not wake this thread; it is published whenever a state is sent, and at least as often as a state is
+/// repeated.
 void Outbox::run() {
   double publish_time = 0.0;
   std::unique_lock<std::mutex> lock(mutex_);
   for (bool stop = false; !stop;) {
-    bell_.wait_for(lock, std::chrono::duration<double>(repeat_after),
-                   [this] { return stop_ || shown_ || !committed_.empty(); });
+    condition_.wait_for(lock, std::chrono::duration<double>(repeat_after),
+                        [this] { return stop_ || shown_ || !committed_.empty(); });
     stop = stop_;
     std::optional<ShownState> shown = std::exchange(shown_, std::nullopt);
     const std::vector<CommittedState> committed = committed_.take();

@@ -29,9 +29,9 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
       sender_(parameters.simulation.dropout_after),
       wall_poses_(parameters.max_age),
       wall_buttons_(parameters.max_age),
-      events_(most_waiting),
-      early_poses_(most_early),
-      early_buttons_(most_early) {
+      events_(max_waiting),
+      early_poses_(max_early_messages),
+      early_buttons_(max_early_messages) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   static_subscriber_ = node.subscribe("/tf_static", 100, &StylusInput::on_static_transforms, this, hints);
   tf_subscriber_ = node.subscribe("/tf", input_queue, &StylusInput::on_transforms, this, hints);
@@ -68,7 +68,7 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
   const std::lock_guard<std::mutex> lock(mutex_);
   ++statistics_.messages;
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
-    if (statistics_.frames.size() < most_named_frames) statistics_.frames.insert(frame(transform.child_frame_id));
+    if (statistics_.frames.size() < max_named_frames) statistics_.frames.insert(frame(transform.child_frame_id));
     if (frame(transform.child_frame_id) != frame_) continue;
     if (!ros::Time::isSimTime()) {
       if (is_followed(event.getPublisherName())) on_wall_time(transform);
@@ -84,7 +84,7 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
 
 bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
-  if (!sender_.offers(sender, ros_common::local_time().attended)) {
+  if (!sender_.accepts(sender, ros_common::local_time().attended)) {
     statistics_.other_sender = sender;
     rejections_.add(another_sender,
                     "tf: " + frame_ + ": must have one sender, " + sender_.name() + ", got also " + sender);
@@ -119,11 +119,11 @@ void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& trans
   if (std::abs(age) > parameters_.max_age)
     return reject_stamp(transform, age > 0.0 ? "too old" : "from the future", age);
   if (use(transform, ros_common::nanoseconds_of(transform.header.stamp), age)) {
-    go_on_to(transform.header.stamp, poses_, early_poses_);
+    advance_stream(transform.header.stamp, poses_, early_poses_);
   }
 }
 
-/// `stamp`: that of the transform in local time [ns]. Returns whether it was used.
+/// Queues a transform; returns whether it was used. `stamp`: its stamp in local time [ns].
 bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int64_t stamp, double age) {
   statistics_.newest_offer_age = age;
   const std::string& parent = transform.header.frame_id;
@@ -134,7 +134,7 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
     return false;
   }
   if (events_.is_full()) {
-    rejections_.add(loop_stands, place_of(transform) + "the loop stands for too long to take more");
+    rejections_.add(loop_stalled, place_of(transform) + "the loop is stalled and accepts no input");
     return false;
   }
   const hand_input::RawSample sample = raw_sample(transform.transform, seconds(stamp));
@@ -162,11 +162,11 @@ void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {
 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  // Without a clock yet there is no time that it could be of: an epoch that it began would be followed by the true one.
+  // Without a clock the message has no time: an epoch that it starts would soon be replaced by the true one.
   if (ros::Time::now().isZero()) return rejections_.add("no clock", joy_ + ": no time on /clock yet");
   if (message->buttons.empty())
     return rejections_.add("no buttons", joy_ + ": buttons: must be at least one button, got none");
-  if (events_.is_full()) return rejections_.add(loop_stands, joy_ + ": the loop stands for too long to take more");
+  if (events_.is_full()) return rejections_.add(loop_stalled, joy_ + ": the loop is stalled and accepts no input");
   const std::int64_t stamp = ros_common::nanoseconds_of(message->header.stamp);
   if (!ros::Time::isSimTime())
     return on_buttons(*message, wall_buttons_.local_or_now(stamp, ros_common::wall_moment()));
@@ -180,11 +180,11 @@ void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::
   const ros::Time& stamp = message.header.stamp;
   if (!stamp.isZero() && (buttons_.newest - stamp).toSec() > SimulatedClock::slip) return early_buttons_.keep(message);
   const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
-  if (usable_stamp) go_on_to(stamp, buttons_, early_buttons_);
+  if (usable_stamp) advance_stream(stamp, buttons_, early_buttons_);
   on_buttons(message, ros_common::nanoseconds_of(usable_stamp ? stamp : now));
 }
 
-/// `stamp`: that of the message in local time [ns].
+/// Queues button events. `stamp`: stamp of the message in local time [ns].
 void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp) {
   const double t = seconds(stamp);
   using motion::Press;
@@ -199,19 +199,20 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp
   wake_();
 }
 
-/// If a stream continues, its kept messages were out of order, and did not follow a time jump.
+/// Advances a stream to this stamp, and drops its kept messages: they were out of order, not from after a time jump.
 template <typename Message>
-void StylusInput::go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early) {
+void StylusInput::advance_stream(const ros::Time& stamp, SimulatedClock::Stream& stream,
+                                 EarlyMessages<Message>& early) {
   if (stamp <= stream.newest) return;
   stream.newest = stamp;
   early.clear();
 }
 
-/// Restarts, unless a present stream has not reached the time jump yet.
+/// Restarts, unless an active stream has not reached the time jump yet.
 void StylusInput::restart_when_due() {
   const bool poses_awaited = !poses_.newest.isZero() && early_poses_.empty();
   const bool buttons_awaited = !buttons_.newest.isZero() && early_buttons_.empty();
-  if (clock_.is_patient() && (poses_awaited || buttons_awaited)) return;
+  if (clock_.is_waiting() && (poses_awaited || buttons_awaited)) return;
   const ros::Time now = ros::Time::now();
   ROS_INFO("time jumped back by %.3g s: the simulation restarts", clock_.restart());
   pressed_ = next_tool_ = clutch_ = false;
@@ -219,7 +220,7 @@ void StylusInput::restart_when_due() {
   poses_.newest = buttons_.newest = ros::Time();
   sender_.forget();
   ++statistics_.restarts;
-  // By now the clock of a bag that is played quickly may be far on: what waited is as old as it was.
+  // The clock of a bag that is played fast may have advanced far: the kept messages get their original ages.
   const auto came_at = [&](const ros::Time& stamp) { return stamp.isZero() ? now : stamp; };
   for (const geometry_msgs::TransformStamped& transform : early_poses_.take()) {
     on_simulated_time(transform, came_at(transform.header.stamp));
@@ -232,7 +233,7 @@ void StylusInput::restart_when_due() {
 /// Converts a moment of local time [ns] to seconds since the epoch.
 double StylusInput::seconds(std::int64_t stamp) {
   if (zero_ == 0) {
-    // In simulated time a whole second: a bag played again gives the same times to the bit, whatever comes first.
+    // In simulated time a whole second, so that a replayed bag gives bit-identical times, whatever arrives first.
     constexpr std::int64_t second = 1'000'000'000;
     zero_ = ros::Time::isSimTime() && stamp >= second ? stamp / second * second : stamp;
     events_.put(live::NewEpoch{zero_});

@@ -4,8 +4,8 @@
 
 namespace spring_workbench::markers {
 
-/// Whether a shape is drawn as its mesh file says, with the file's colours and textures: the scene gives no colour. STL
-/// has none either: it is drawn from the triangles, smooth, in the usual colour.
+/// Whether a shape is drawn with the colours and textures of its mesh file, i.e. if the scene gives no colour. STL
+/// files have none: they are drawn from the triangles, smooth, in the default colour.
 bool has_file_colors(const geometry::Shape& shape);
 
 }  // namespace spring_workbench::markers

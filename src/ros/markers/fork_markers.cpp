@@ -30,7 +30,7 @@ void add_triangles(const std::string& ns, int id, const fork_mesh::ForkModel::Tr
   }
 }
 
-/// From the tip; nothing where it would be too short to be seen.
+/// Draws an arrow at the tip, unless it is too short to be visible.
 void draw_arrow(const std::string& ns, const tools::ToolState& tool, const Vector3d& arrow, const Color& color,
                 MarkerList& markers) {
   const double length = arrow.norm();
@@ -45,7 +45,7 @@ std::string printed(const char* format, double a, double b, double c = 0.0) {
   return text;
 }
 
-/// The second line: the tool as an instrument. The letters of rviz are those of ASCII.
+/// The second line of the text: the readings of the tool. rviz can only draw ASCII.
 std::string reading(const tools::ToolState& tool, double force_scale) {
   if (!tool.touched.empty()) {
     if (tool.material_stiffness <= 0.0) return "";
@@ -64,7 +64,7 @@ void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const
                   MarkerList& markers) {
   const double force = tool.tip_wrench_W.force.norm();
   const double size =
-      fork_mesh::drawn_diameter(validation::name_of(tool.tool), tool.length) / fork_mesh::usual_diameter;
+      fork_mesh::drawn_diameter(validation::name_of(tool.tool), tool.length) / fork_mesh::default_diameter;
   const std::string load = printed("%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                                    force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
   const Vector3d place = tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * size) + 0.4 * size * Vector3d::UnitZ();

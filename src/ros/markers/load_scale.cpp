@@ -15,7 +15,7 @@ namespace {
 
 const Color legend_color(0.9, 0.9, 0.9, 1.0);
 
-/// Left, back and bottom of all bodies where they start, but the bench.
+/// Left back bottom corner of all bodies at their start poses, without the bench.
 Vector3d legend_corner(const scene::Scene& scene) {
   Eigen::AlignedBox3d all;
   for (const scene::Body& body : scene.bodies) {
@@ -60,7 +60,7 @@ std::string LoadScale::label(double weight) const {
   return text;
 }
 
-/// The heaviest, the lightest, then the others, as far as there is room for their letters.
+/// The heaviest, the lightest, then the others, as far as there is space for their labels.
 std::vector<LoadScale::Mark> LoadScale::marks() const {
   std::vector<double> in_order = range_.weights();
   if (in_order.size() > 1) std::rotate(in_order.begin() + 1, in_order.end() - 1, in_order.end());

@@ -6,38 +6,40 @@
 
 namespace spring_workbench::markers {
 
-/// The legend of how much a tool carries, in the colours of fork_mesh::load_color over the scene's LoadRange.
+/// The legend for the loads of tools, in the colours of fork_mesh::load_color over the scene's LoadRange.
 class LoadScale {
  public:
-  /// Holds for all views of this scene.
+  /// Valid for all views of this scene.
   explicit LoadScale(const live::View& view);
 
-  /// A column of the colours at the scene's left back corner: what its end means in N and vkg, and a mark for each
-  /// object's weight; with `calibrate: world` the extension that the hanging object gives the fork, too.
+  /// Draws a column of the colours at the left back corner of the scene, labelled with its full scale in N and vkg and
+  /// with the weight of each object; with `calibrate: world` also with the extension of the fork under each hanging
+  /// object.
   void draw_legend(MarkerList& markers) const;
-  /// An arrow at the column, where the load of this tool is.
+  /// Draws an arrow at the column that indicates the load of this tool.
   void draw_load(const tools::ToolState& tool, const std::string& number, MarkerList& markers) const;
 
  private:
   struct Mark {
-    double height;  ///< in the column [m]
+    double height;  ///< height in the column [m]
     std::string label;
   };
   std::vector<Mark> marks() const;
-  double height(double place) const;  ///< of the column [m]
+  double height(double place) const;  ///< height in the column of a position in the range [m]
   std::string label(double weight) const;
 
   instruments::LoadRange range_;
-  double gravity_;                  ///< that tells a weight from a mass [m/s²]
-  double stretch_stiffness_ = 0.0;  ///< of the fork that is calibrated to the world [N/m]; 0: it is not
-  Vector3d foot_;                   ///< of the column
-  std::vector<Mark> marks_;         ///< of objects' weights
+  double gravity_;                  ///< converts mass to weight [m/s²]
+  double stretch_stiffness_ = 0.0;  ///< of the fork calibrated to the world [N/m]; 0: not calibrated
+  Vector3d foot_;                   ///< foot of the column
+  std::vector<Mark> marks_;         ///< labels of the objects' weights
 };
 
-/// Of a spring whose load is at `place` in the range.
+/// Colour of a spring whose load is at `place` in the range, 0 … 1.
 Color load_color(double place);
 
-/// Virtual kilograms (the paper, section 4): what weighs this force [N] in the scene; on Earth where it has no gravity.
+/// Virtual kilograms (paper, section 4): the mass whose weight in the scene is this force [N]; on Earth if the scene
+/// has no gravity.
 double virtual_kilograms(double force, const scene::Scene& scene);
 
 }  // namespace spring_workbench::markers

@@ -16,7 +16,7 @@ MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const std::string
       display_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("display/markers", 5)) {}
 
 bool MarkerPublisher::publish(const live::View& view, const std_msgs::Header& header, double now) {
-  const bool wait = now < next_ && now > next_ - period_;  // a clock that went back waits not
+  const bool wait = now < next_ && now > next_ - period_;  // no wait if the clock jumped back
   const bool all = all_publisher_.getNumSubscribers() > 0;
   const bool for_displays = display_publisher_.getNumSubscribers() > 0;
   if (wait || (!all && !for_displays)) return false;

@@ -31,7 +31,7 @@ MarkerArray MarkerBuilder::build(const live::View& view, const std_msgs::Header&
   shadows_->draw(view, forks_W_, list);
   draw_contacts(view.contacts, view.tools.front().length, list);
   MarkerArray markers = list.take();
-  delete_what_is_gone(header, markers);
+  delete_stale_markers(header, markers);
   return markers;
 }
 
@@ -50,14 +50,14 @@ void MarkerBuilder::draw_hand(const live::View& view, std::size_t hand, MarkerLi
 
 const fork_mesh::ForkModel& MarkerBuilder::deform(const tools::ToolState& tool) {
   const std::string name = validation::name_of(tool.tool);
-  const auto model = models_.try_emplace(tool.tool, fork_mesh::look_of(name)).first;
+  const auto model = models_.try_emplace(tool.tool, fork_mesh::appearance_of(name)).first;
   const auto shape = rod::make_shape_model(tool.shape, tool.length);
   model->second.deform(fork_mesh::make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_proxy),
                        fork_mesh::drawn_diameter(name, tool.length, fork_diameter_), fork_mesh_);
   return model->second;
 }
 
-void MarkerBuilder::delete_what_is_gone(const std_msgs::Header& header, MarkerArray& markers) {
+void MarkerBuilder::delete_stale_markers(const std_msgs::Header& header, MarkerArray& markers) {
   std::set<MarkerKey> now;
   for (const Marker& marker : markers.markers) now.emplace(marker.ns, marker.id);
   for (const MarkerKey& key : shown_) {

@@ -13,7 +13,7 @@ using visualization_msgs::Marker;
 
 const Color contact_color(1.0, 0.25, 0.05, 1.0);
 
-/// A mesh by its file where it has one: rviz reads it once, and a message is small.
+/// Sets a mesh by its file, if it has one: rviz reads the file once, and the message stays small.
 void set_mesh(const geometry::TriangleMesh& mesh, Marker& marker) {
   if (!mesh.uri.empty()) {
     marker.type = Marker::MESH_RESOURCE;
@@ -41,7 +41,7 @@ void draw_shape(const std::string& ns, int id, const geometry::Shape& shape, con
     marker.scale = ros_common::to_vector(Vector3d(2.0 * cylinder->radius, 2.0 * cylinder->radius, cylinder->length));
   } else {
     set_mesh(*std::get<geometry::MeshPtr>(shape.geometry), marker);
-    if (color != shape.color || !has_file_colors(shape)) return;  // lit or translucent: in one colour
+    if (color != shape.color || !has_file_colors(shape)) return;  // highlighted or translucent: in a single colour
     marker.mesh_use_embedded_materials = 1;
     marker.color = std_msgs::ColorRGBA();  // no tint
   }

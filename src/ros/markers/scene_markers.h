@@ -5,9 +5,10 @@
 
 namespace spring_workbench::markers {
 
-/// Bodies as primitives or as their mesh files, in their URDF's colours; an object that the tip is in lights up.
+/// Draws bodies as primitives or mesh files, in the colours of their URDF; the object that the tip is in is
+/// highlighted.
 void draw_bodies(const live::View& view, MarkerList& markers);
-/// Ghosts of the objects where they belong.
+/// Draws ghosts of the objects at their targets.
 void draw_targets(const scene::Scene& scene, MarkerList& markers);
 void draw_contacts(const std::vector<contact::ContactState>& contacts, double fork_length, MarkerList& markers);
 

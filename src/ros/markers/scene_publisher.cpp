@@ -127,7 +127,7 @@ ScenePublisher::ScenePublisher(ros::NodeHandle private_node, std::string world_f
       publisher_(private_node.advertise<SceneDescription>("scene_description", 1, true)) {}
 
 void ScenePublisher::keep(const std::shared_ptr<const scene::Scene>& scene) {
-  const bool is_new = scene != std::exchange(seen_, scene) && (!sent_ || !same_scene(*scene, *sent_));
+  const bool is_new = scene != std::exchange(last_checked_, scene) && (!sent_ || !same_scene(*scene, *sent_));
   if (!is_new) return;
   sent_ = scene;
   SceneDescription message = describe(*scene);

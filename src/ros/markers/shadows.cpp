@@ -13,7 +13,7 @@ namespace {
 
 const Color shadow_color(0.0, 0.0, 0.0, 0.45);
 
-/// Points of a shape's surface, in W, whose shadow is the shape's; of a mesh, its box.
+/// Adds points of a shape's surface, in W, whose shadow is that of the shape; for a mesh, those of its bounding box.
 void add_outline(const geometry::Shape& shape, const RigidTransform& X_WO, std::vector<Vector3d>& points_W) {
   const RigidTransform X_WS = X_WO * shape.X_OS;
   const auto add_circle = [&](double radius, double z, const RigidTransform& X) {
@@ -26,7 +26,7 @@ void add_outline(const geometry::Shape& shape, const RigidTransform& X_WO, std::
     RigidTransform X_W = RigidTransform::Identity();
     X_W.translation() = X_WS.translation();
     add_circle(sphere->radius, 0.0, X_W);
-    points_W.push_back(X_WS.translation() - Vector3d(0.0, 0.0, sphere->radius));  // says how high it is
+    points_W.push_back(X_WS.translation() - Vector3d(0.0, 0.0, sphere->radius));  // the lowest point, for the height
   } else if (const auto* cylinder = std::get_if<geometry::Cylinder>(&shape.geometry)) {
     add_circle(cylinder->radius, -0.5 * cylinder->length, X_WS);
     add_circle(cylinder->radius, 0.5 * cylinder->length, X_WS);
@@ -36,7 +36,7 @@ void add_outline(const geometry::Shape& shape, const RigidTransform& X_WO, std::
   }
 }
 
-/// Convex hull of the points seen from above, counter-clockwise (Andrew's monotone chain).
+/// Convex hull of the points in plan view, counter-clockwise (Andrew's monotone chain).
 std::vector<Vector3d> hull_from_above(std::vector<Vector3d> points, double z) {
   for (Vector3d& p : points) p.z() = z;
   std::sort(points.begin(), points.end(),
@@ -50,17 +50,17 @@ std::vector<Vector3d> hull_from_above(std::vector<Vector3d> points, double z) {
       }
       hull.push_back(p);
     }
-    hull.pop_back();  // the other pass begins with it
+    hull.pop_back();  // it is the first point of the other pass
     std::reverse(points.begin(), points.end());
   }
   return hull;
 }
 
-/// The shadow as triangles; nothing for what is on the bench.
+/// The shadow as triangles; empty for an object on the bench.
 std::vector<Vector3d> corners_of(const std::vector<Vector3d>& points_W, double bench_height) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vector3d& p : points_W) lowest = std::min(lowest, p.z());
-  if (!std::isfinite(lowest) || lowest < bench_height + least_shadow_height) return {};
+  if (!std::isfinite(lowest) || lowest < bench_height + min_shadow_height) return {};
   const std::vector<Vector3d> hull = hull_from_above(points_W, bench_height + shadow_above_bench);
   std::vector<Vector3d> corners;
   for (std::size_t i = 1; i + 1 < hull.size(); ++i) corners.insert(corners.end(), {hull[0], hull[i], hull[i + 1]});

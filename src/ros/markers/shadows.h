@@ -8,19 +8,20 @@
 
 namespace spring_workbench::markers {
 
-/// What lies straight below each raised object and below the forks, on the bench: shows how high they are. Those of
-/// objects that have not moved are kept.
+/// Shadows on the bench, straight below raised objects and forks, which show their height. Shadows of objects that have
+/// not moved are reused.
 class Shadows {
  public:
-  /// All views are of one scene, which must outlive this. `forks_W`: corners of each hand's fork.
+  /// All views must be of the same scene, which must outlive this. `forks_W`: vertices of each hand's fork.
   void draw(const live::View& view, const std::vector<std::vector<Vector3d>>& forks_W, MarkerList& markers);
 
  private:
   void follow(const live::View& view);
 
   live::SharedStates drawn_;
-  std::vector<const scene::Body*> bodies_;                ///< of the objects
-  std::map<std::size_t, std::vector<Vector3d>> corners_;  ///< of the triangles of the shadows that there are, by object
+  std::vector<const scene::Body*> bodies_;  ///< bodies of the objects
+  std::map<std::size_t, std::vector<Vector3d>>
+      corners_;  ///< corners of the triangles of the present shadows, by object
 };
 
 }  // namespace spring_workbench::markers

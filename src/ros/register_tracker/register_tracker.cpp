@@ -16,14 +16,14 @@
 namespace spring_workbench::register_tracker {
 namespace {
 
-/// The stylus and its button from the running driver.
+/// Collects samples of the stylus and its button from the running driver.
 class Listener {
  public:
   Listener()
       : tf_(node_.subscribe("/tf", 1000, &Listener::on_transforms, this)),
         joy_(node_.subscribe("stylus/joy", 1000, &Listener::on_buttons, this)) {}
 
-  /// All samples until the button was let go for the `count`th time.
+  /// Returns all samples until the button is released for the `count`th time.
   std::vector<motion::StylusSample> collect(std::size_t count) {
     for (std::size_t seen = 0; seen < count && ros::ok();) {
       ros::spinOnce();

@@ -29,7 +29,7 @@ void fill(const simulation::ChangeReport& report, Response& response) {
   response.elastic_energy_after = report.elastic_energy_after;
 }
 
-/// `stylus`: 1, 2, …; 0: every one.
+/// `stylus`: 1, 2, …; 0: all.
 live::Command command_of(const live::SimulationRunner& runner, live::Command::Kind kind, unsigned stylus,
                          const std::string& service) {
   if (stylus > runner.hands()) {
@@ -53,7 +53,7 @@ template <typename Response>
 void change_fork(live::SimulationRunner& runner, const simulation::ForkChange& change, unsigned stylus,
                  const std::string& service, Response& response) {
   live::Command command = command_of(runner, live::Command::Kind::settings, stylus, service);
-  command.of_fork = change;
+  command.fork_change = change;
   fill(runner.change(service, command), response);
 }
 
@@ -88,7 +88,7 @@ void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request
                     SetIntegrator::Response& response) {
   live::Command command;
   command.kind = live::Command::Kind::settings;
-  simulation::DynamicsChange& change = command.of_dynamics;
+  simulation::DynamicsChange& change = command.dynamics_change;
   change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "set_integrator", "name");
   if (request.step != 0.0) change.step = request.step;
   if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
@@ -201,7 +201,7 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
     response.message = "all objects are back at their start";
   };
   serve("reset", reset, std_srvs::Trigger());
-  const auto undo = [&runner](auto&, auto& response) { response.message = "taken back: " + runner.undo(); };
+  const auto undo = [&runner](auto&, auto& response) { response.message = "undone: " + runner.undo(); };
   serve("undo", undo, std_srvs::Trigger());
   return servers;
 }

@@ -21,7 +21,8 @@ using visualization_msgs::Marker;
 
 const char* const marker_name = "stylus";
 
-/// A ball around the handle that is dragged in the plane of the picture; with Shift to and fro, with Ctrl turned.
+/// A ball around the handle that can be dragged in the image plane; with Shift towards and away from the viewer; with
+/// Ctrl it rotates.
 InteractiveMarkerControl make_ball() {
   Marker ball;
   ball.type = Marker::SPHERE;
@@ -41,7 +42,7 @@ InteractiveMarkerControl make_ball() {
   return control;
 }
 
-/// Arrows along or a ring about one axis of the handle.
+/// Arrows along, or a ring about, one axis of the handle.
 InteractiveMarkerControl make_axis(const std::string& name, const Vector3d& axis, std::uint8_t mode) {
   InteractiveMarkerControl control;
   control.name = name;
@@ -146,7 +147,7 @@ class InteractiveMarkerSource final : public MessageSource {
   interactive_markers::MenuHandler::EntryHandle grasp_entry_ = 0;
   ros::ServiceServer grasp_service_;
   bool grasp_ = false;
-  double tool_button_for_ = 0.0;  ///< how much longer the button for the next tool is down [s]
+  double tool_button_for_ = 0.0;  ///< remaining time that the button for the next tool is down [s]
   std::size_t drags_ = 0, rejected_ = 0;
 };
 

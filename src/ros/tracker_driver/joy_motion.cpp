@@ -19,7 +19,7 @@ std::array<int, 6> read_axes(const YAML::Node& node, const std::string& where) {
   const std::vector<double> numbers = config::read_numbers(node, where, "axes", 6);
   std::array<int, 6> axes{};
   for (std::size_t i = 0; i < 6; ++i) {
-    if (!(numbers[i] >= -1.0 && numbers[i] < most_controls && numbers[i] == std::floor(numbers[i]))) {
+    if (!(numbers[i] >= -1.0 && numbers[i] < max_controls && numbers[i] == std::floor(numbers[i]))) {
       validation::refuse(where, "axes", std::to_string(numbers[i]), "the number of an axis, or -1 for none");
     }
     axes[i] = static_cast<int>(numbers[i]);
@@ -41,7 +41,7 @@ JoySettings read_joy_settings(const YAML::Node& map, const std::string& where) {
     if (map[key]) value = config::read_number(map[key], where, key, validation::between(0.0, max));
   };
   const auto button = [&](const char* key, int& value) {
-    if (map[key]) value = config::read_integer(map[key], where, key, -1, most_controls - 1);
+    if (map[key]) value = config::read_integer(map[key], where, key, -1, max_controls - 1);
   };
   if (map["axes"]) settings.axes = read_axes(map["axes"], where);
   number("move_speed", 2.0, settings.move_speed);

@@ -15,7 +15,7 @@
 
 namespace spring_workbench::tracker_driver {
 
-/// What the simulated operator sees of a running node `manipulation`: its ~objects, and ~fork of each hand.
+/// What the simulated operator perceives of a running node `manipulation`: its ~objects, and the ~fork of each hand.
 class OperatorEyes {
  public:
   OperatorEyes(ros::NodeHandle node, std::size_t hands)
@@ -28,8 +28,8 @@ class OperatorEyes {
     }
   }
 
-  /// Waits until something is seen; returns at shutdown too. The forks of further hands are seen once these move, and
-  /// are taken for the first one's until then.
+  /// Waits for the first messages, or until shutdown. The forks of further hands are published once these move; until
+  /// then the first hand's fork is used for them.
   void wait() {
     while (ros::ok() && (view_.objects.empty() || view_.tools.front().X_HE.translation().isZero())) {
       ros::spinOnce();
@@ -39,7 +39,7 @@ class OperatorEyes {
       if (tool.X_HE.translation().isZero()) tool = view_.tools.front();
     }
   }
-  /// The newest view; serves the callbacks of this thread first.
+  /// Runs the pending callbacks of this thread and returns the newest view.
   assembly::OperatorView look() {
     ros::spinOnce();
     return view_;

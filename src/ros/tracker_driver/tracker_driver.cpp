@@ -38,7 +38,7 @@
 namespace spring_workbench::tracker_driver {
 namespace {
 
-/// A path or package:// URI as a path.
+/// Converts a path or package:// URI to a path.
 std::string resolve(const std::string& path_or_uri) {
   const std::string scheme = "package://";
   if (path_or_uri.rfind(scheme, 0) != 0) return path_or_uri;
@@ -114,7 +114,7 @@ class TrackerDriver {
     return std::make_unique<motion_files::RecordedSource>(motion_files::read_motion_file(path));
   }
 
-  /// Nothing where the source is a motion.
+  /// Returns the device; null if the source is a motion.
   std::unique_ptr<motion::LiveSource> open_device(const ros::NodeHandle& node,
                                                   const ros::NodeHandle& private_node) const {
     const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
@@ -127,7 +127,7 @@ class TrackerDriver {
     return nullptr;
   }
 
-  /// Eyes beside each other in the head's axes: x forward, y left (REP 103).
+  /// Publishes the eyes side by side in head axes: x forward, y left (REP 103).
   void send_eyes() {
     std::vector<geometry_msgs::TransformStamped> eyes;
     for (std::size_t head = 0; head < std::max<std::size_t>(parameters_.head_stations.size(), 1); ++head) {
@@ -145,7 +145,7 @@ class TrackerDriver {
     ros::Time::waitForValid();
     const double start = ros_common::loop_time() + parameters_.pause;
     ++passes_;
-    std::map<std::size_t, double> newest;  // time of the newest sample sent, by hand [s]
+    std::map<std::size_t, double> newest;  // time of the newest sample sent per hand [s]
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     while (ros::ok()) {
       auto sample = source->next();
@@ -229,7 +229,7 @@ class TrackerDriver {
 
   std::string head_frame(std::size_t head) const { return parameters_.head_frame + ros_common::hand_suffix(head); }
 
-  /// Number of the head that the station is on, from 0.
+  /// Number, from 0, of the head that wears the station.
   std::optional<std::size_t> head_of(int station) const {
     const auto& heads = parameters_.head_stations;
     const auto found = std::find(heads.begin(), heads.end(), station);
@@ -302,17 +302,16 @@ class TrackerDriver {
   struct Station {
     explicit Station(const TrackerParameters& p) : stream(p.dropout_after, p.even_stamps) {}
     fastrak::StationStream stream;
-    double newest =
-        -std::numeric_limits<double>::infinity();  ///< stamp of the last sample sent, by the steady clock [s]
-    std::map<std::string, std::size_t> not_sent;   ///< by reason
+    double newest = -std::numeric_limits<double>::infinity();  ///< stamp of the last sample sent [s, steady clock]
+    std::map<std::string, std::size_t> not_sent;               ///< by reason
   };
   std::map<int, Station> stations_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   RigidTransform X_BT_;
-  scene::Scene scene_;                  ///< for the operator
-  std::unique_ptr<OperatorEyes> eyes_;  ///< likewise
+  scene::Scene scene_;                  ///< scene of the operator
+  std::unique_ptr<OperatorEyes> eyes_;  ///< view of the operator
   std::size_t sent_ = 0, not_sent_ = 0, passes_ = 0;
-  double interval_ = 0.0;  ///< between the last two samples sent [s]
+  double interval_ = 0.0;  ///< time between the last two samples sent [s]
   bool over_ = false;
   double next_diagnostics_ = 0.0;
   tf2_ros::TransformBroadcaster transforms_;

@@ -8,7 +8,7 @@
 namespace spring_workbench::tracker_driver {
 namespace {
 
-/// The parameters that go with a source.
+/// The parameters that belong to a source.
 std::vector<std::string> keys_of(const std::string& source) {
   std::vector<std::string> keys{"source",     "rate", "workbench_frame",         "stylus_frame",
                                 "head_frame", "head", "interpupillary_distance", "dropout_after"};
@@ -27,7 +27,7 @@ std::vector<std::string> keys_of(const std::string& source) {
   return keys;
 }
 
-/// In the words of the launch argument `input`, or what the mouse was called before.
+/// Reads the source by the values of the launch argument `input`; also accepts the former name of `mouse`.
 std::string read_source(const YAML::Node& value, const std::string& where) {
   if (value.IsScalar() && value.Scalar() == "interactive_marker") return "mouse";
   return config::read_choice(value, where, "source",
@@ -42,7 +42,7 @@ std::vector<int> read_head_stations(const YAML::Node& value, const std::string& 
     if (station == 1 || std::count(stations.begin(), stations.end(), station) == 0 ||
         std::count(heads.begin(), heads.end(), station) > 0) {
       validation::refuse(where, "head_stations", std::to_string(station),
-                         "different ones of stations other than 1, which is the stylus");
+                         "stations other than 1 (the stylus), without duplicates");
     }
     heads.push_back(station);
   }

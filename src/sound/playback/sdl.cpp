@@ -29,8 +29,8 @@ class SdlDevice final : public AudioOutput {
   SdlDevice& operator=(const SdlDevice&) = delete;
 
   void write(const std::vector<float>& samples) override {
-    constexpr Uint32 most_waiting = ContactSynthesizer::sample_rate / 5 * sizeof(float);  // a fifth of a second
-    if (SDL_GetQueuedAudioSize(device_) > most_waiting) SDL_ClearQueuedAudio(device_);
+    constexpr Uint32 max_waiting = ContactSynthesizer::sample_rate / 5 * sizeof(float);  // a fifth of a second
+    if (SDL_GetQueuedAudioSize(device_) > max_waiting) SDL_ClearQueuedAudio(device_);
     SDL_QueueAudio(device_, samples.data(), static_cast<Uint32>(samples.size() * sizeof(float)));
   }
 

@@ -18,7 +18,7 @@
 namespace spring_workbench::assembly::paper_in_scenes_test {
 namespace {
 
-/// How many of the cases are run: SPRING_WORKBENCH_PAPER_RUNS, or fewer every day.
+/// Number of cases to run: SPRING_WORKBENCH_PAPER_RUNS, or fewer by default.
 std::size_t number_of_runs() {
   const char* asked = std::getenv("SPRING_WORKBENCH_PAPER_RUNS");
   return asked != nullptr ? static_cast<std::size_t>(std::atol(asked)) : 60;
@@ -73,8 +73,8 @@ simulation::SimulationSettings settings_of(const Case& c) {
   return settings;
 }
 
-/// Where the hand is that begins at `start`: it carries the object away, leans, and presses it on the bench; holds it
-/// up and trembles; jumps by 0.3 m up and back; or goes and turns on sines.
+/// Pose of the hand, starting at `start`: carries the object away, tilts, and presses it onto the bench; holds it up
+/// and trembles; jumps up by 0.3 m and back; or moves and turns along sines.
 RigidTransform pose(Hand hand, double t, const Vector3d& start, std::mt19937& random) {
   const auto wobble = [&](double size) {
     std::normal_distribution<double> normal(0.0, size);
@@ -107,7 +107,7 @@ RigidTransform pose(Hand hand, double t, const Vector3d& start, std::mt19937& ra
   return X;
 }
 
-/// With the tip beside the centre of one of the objects.
+/// Runs with the tip next to the centre of one of the objects.
 Counts run_open(const scene::Scene& scene, const Case& c, std::mt19937& random) {
   std::vector<const scene::Body*> movable;
   for (const scene::Body& body : scene.bodies) {
@@ -129,7 +129,7 @@ Counts run_open(const scene::Scene& scene, const Case& c, std::mt19937& random) 
   return {report.steps, report.steps_rejected, report.steps_fallback};
 }
 
-/// The whole task of the scene.
+/// Runs the whole task of the scene.
 Counts run_task(const scene::Scene& scene, const Case& c) {
   OperatorSettings hand;
   hand.rate = 1.0 / std::max(0.02, c.step);

@@ -28,7 +28,7 @@ OperatorSettings still_hand() {
   return settings;
 }
 
-/// A world that lies still: every object where the scene has it.
+/// A static world with every object at its start pose.
 OperatorView view_of(const scene::Scene& scene) {
   OperatorView view;
   for (const scene::Body& body : scene.bodies) {
@@ -64,7 +64,7 @@ TEST(SimulatedOperator, AssemblesTheMiniWorldWithEveryFork) {
   }
 }
 
-/// A blow of what it carries may cost it some kilonewtons, a stop that made energy of nothing far more.
+/// An impact of the carried object may cause some kilonewtons; a stop that created energy would cause far more.
 TEST(SimulatedOperator, PressesNoHarderThanABlowOfItsHand) {
   const scene::Scene scene = scene::load_scene(mini_world);
   for (const unsigned seed : {1u, 3u}) {
@@ -89,12 +89,12 @@ TEST(SimulatedOperator, SameSeedSameBits) {
   EXPECT_NE(score_csv(a.score), score_csv(c.score));
 }
 
-TEST(SimulatedOperator, ActsOnWhatItSeesOneReactionLater) {
+TEST(SimulatedOperator, ActsOnWhatItPerceivedOneReactionTimeAgo) {
   const scene::Scene scene = scene::load_scene(mini_world);
   for (const double reaction : {0.0, 0.1, 0.3}) {
     OperatorSettings settings = still_hand();
     settings.reaction = reaction;
-    // The first object in the list goes away at `moved`, while the hand is on its way to it.
+    // The first object in the list disappears at `moved`, while the hand is moving towards it.
     constexpr int moved = 60;
     int looks = 0;
     const OperatorView view = view_of(scene);
@@ -112,8 +112,7 @@ TEST(SimulatedOperator, ActsOnWhatItSeesOneReactionLater) {
   }
 }
 
-/// A still hand without a reaction's delay: it is on its way for 0.1 s and 0.2 s more for each time that the way, plus
-/// one centimetre, doubles that centimetre.
+/// Without tremor and reaction time, a reach takes 0.1 s plus 0.2 s per doubling of (distance + 1 cm) relative to 1 cm.
 TEST(SimulatedOperator, ReachesFollowFittsLaw) {
   const scene::Scene scene = scene::load_scene(mini_world);
   OperatorSettings settings = still_hand();
@@ -123,7 +122,7 @@ TEST(SimulatedOperator, ReachesFollowFittsLaw) {
   std::vector<RigidTransform> motion;
   for (int k = 0; k < 1500; ++k) motion.push_back(hand.next()->X);
   const Vector3d start = motion.front().translation();
-  std::size_t end = 1;  // at rest for the first time: the speed of a reach is zero at its end alone
+  std::size_t end = 1;  // first rest: the speed of a reach is zero only at its end
   const auto speed = [&](std::size_t k) { return (motion[k + 1].translation() - motion[k].translation()).norm(); };
   while (end < 20 || speed(end) > speed(end - 1) || speed(end) > speed(end + 1)) ++end;
   const double way = (motion[end].translation() - start).norm();
@@ -151,8 +150,8 @@ TEST(SimulatedOperator, NoiseHasTheSetSize) {
   EXPECT_NEAR(std::sqrt(a2), 2e-3, 0.12e-3);
 }
 
-/// In a world in which the tip never gets into anything, the hand comes down over each object four times.
-TEST(SimulatedOperator, GivesAnObjectUpAfterFourAttempts) {
+/// In a world in which the tip never enters an object, the hand moves down over each object four times.
+TEST(SimulatedOperator, GivesUpAnObjectAfterFourAttempts) {
   const scene::Scene scene = scene::load_scene(mini_world);
   SimulatedOperator hand(scene, still_hand(), [&] { return view_of(scene); });
   std::vector<double> heights;
@@ -164,7 +163,7 @@ TEST(SimulatedOperator, GivesAnObjectUpAfterFourAttempts) {
   EXPECT_EQ(descents, 4 * scene.targets.size());
 }
 
-TEST(SimulatedOperator, LeavesAloneWhatIsInPlace) {
+TEST(SimulatedOperator, IgnoresObjectsInPlace) {
   scene::Scene scene = scene::load_scene(mini_world);
   for (scene::Body& body : scene.bodies) {
     if (body.movable) body.X_WO = scene.targets.at(body.name).X_WL * body.X_OL.inverse();
@@ -177,7 +176,7 @@ TEST(SimulatedOperator, LeavesAloneWhatIsInPlace) {
 
 const std::string two_handed = test_support::checkout("scenes/two_handed.urdf");
 
-/// Hands that are moved alike move as one, however far each would have to go alone: so a long thing is not bent.
+/// Hands that reach together move in parallel, whatever their own distances, so that a long object is not strained.
 TEST(OperatorHands, ThatReachTogetherKeepTheirDistance) {
   test_support::Random random(5);
   for (int i = 0; i < 50; ++i) {
@@ -196,7 +195,7 @@ TEST(OperatorHands, ThatReachTogetherKeepTheirDistance) {
   }
 }
 
-/// Under way, a hand goes on from where it is.
+/// An interrupted reach continues from the present pose.
 TEST(OperatorHands, DoNotLeapWhenAReachIsBroken) {
   const RigidTransform start = RigidTransform::Identity();
   OperatorHands hands({start}, still_hand());
@@ -223,7 +222,7 @@ TEST(SimulatedOperator, CarriesABarWithTwoHandsAndHandsABoxOver) {
   }
 }
 
-/// Who takes it, who has it then: the near hand alone, both, the far one alone; and the other way round.
+/// The object is held by the near hand alone, both hands, the far one alone; and in reverse.
 TEST(SimulatedOperator, HandsOverFromTheNearHandToTheFarOne) {
   for (const double side : {1.0, -1.0}) {
     scene::Scene scene = scene::load_scene(two_handed);

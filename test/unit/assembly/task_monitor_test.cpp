@@ -35,7 +35,7 @@ scene::Scene box_scene(double max_force = unbreakable) {
   return scene;
 }
 
-/// A hand above the box that goes evenly from point to point; the monitor looks at every sample.
+/// A hand above the box that moves from point to point at constant speed; the monitor observes every sample.
 class Assembly {
  public:
   explicit Assembly(double max_force = unbreakable, tools::Release release = tools::Release::dropped)
@@ -148,11 +148,11 @@ TEST(TaskMonitor, RunningAgainstTheWallIsOneCollision) {
   EXPECT_TRUE(std::isfinite(assembly.score().largest_force));
 }
 
-/// Against the wall and to the target: broken if it bears a little less than the blow, whatever comes then.
+/// Against the wall and to the target: broken for good if it withstands a little less than the impact.
 TEST(TaskMonitor, WhatIsPressedTooHardIsBrokenForGood) {
-  double blow = 0.0;
+  double impact = 0.0;
   for (const double share : {0.0, 0.999, 1.001}) {
-    Assembly assembly(share > 0.0 ? share * blow : unbreakable);
+    Assembly assembly(share > 0.0 ? share * impact : unbreakable);
     assembly.press(true);
     assembly.go(1.0, Vector3d(0.0, 0.0, 0.1));
     assembly.go(1.0, Vector3d(0.38, 0.0, 0.0));
@@ -166,8 +166,8 @@ TEST(TaskMonitor, WhatIsPressedTooHardIsBrokenForGood) {
     EXPECT_EQ(assembly.monitor().placements()[0].broken, broken) << share;
     EXPECT_EQ(assembly.score().complete(), !broken) << share;
     EXPECT_LT(assembly.score().position_error, 0.01) << share;
-    if (share == 0.0) blow = assembly.score().largest_force;
-    EXPECT_EQ(assembly.score().largest_force, blow) << share;
+    if (share == 0.0) impact = assembly.score().largest_force;
+    EXPECT_EQ(assembly.score().largest_force, impact) << share;
     assembly.monitor().reset();
     EXPECT_EQ(assembly.score().broken, 0);
   }
@@ -181,8 +181,8 @@ TEST(TaskMonitor, ResetForgetsAll) {
   EXPECT_EQ(score_csv(assembly.score()), score_csv(TaskMonitor(box_scene()).score()));
 }
 
-/// Three hands lift a box each and let go in the air: all count. Then all lift the same one: each has grasped, and the
-/// way of the box counts once.
+/// Three hands lift a box each and release it in the air: all are counted. Then all lift the same box: each grasp is
+/// counted, and the path of the box once.
 TEST(TaskMonitor, EveryHandScores) {
   scene::Scene scene = box_scene();
   for (const double y : {0.3, -0.3}) {

@@ -9,7 +9,7 @@
 namespace spring_workbench::bodies::changes_test {
 namespace {
 
-/// Numbers with the law written out: an object's is that of its last change.
+/// A simple model: stores the number of each object's last change.
 struct Model {
   Changes changes;
   std::vector<std::uint64_t> at;

@@ -16,7 +16,7 @@ using test_support::box_mesh;
 using test_support::Random;
 using test_support::sphere_mesh;
 
-constexpr double far_below = -1e3;  // a bench that nothing meets
+constexpr double far_below = -1e3;  // a bench out of reach
 
 RigidTransform at(const Vector3d& p) { return RigidTransform(Eigen::Translation3d(p)); }
 
@@ -122,7 +122,8 @@ TEST(Bench, AFineMeshGivesFewPointsThatKeepItsExtent) {
 
 // ---- pairs
 
-/// The law of the least way out: along `n` by the depth the bodies part; no shorter way in any direction parts them.
+/// Checks minimum penetration: moving by the depth along `n` separates the bodies, and no shorter displacement in any
+/// direction does.
 void expect_least_way_out(const CollisionWorld& world, const RigidTransform& X, const ContactPoint& c, double slack,
                           Random& random) {
   const auto moved = [&](const Vector3d& by) { return RigidTransform(Eigen::Translation3d(by) * X); };
@@ -172,7 +173,7 @@ TEST(Pairs, ASphereAgreesWithTheDistanceToABox) {
   }
 }
 
-/// Least overlap of two boxes over the fifteen axes of the separating axis theorem; negative when they are apart.
+/// Smallest overlap of two boxes over the fifteen axes of the separating axis theorem; negative if they are separate.
 double overlap(const geometry::Box& a, const RigidTransform& X_WA, const geometry::Box& b, const RigidTransform& X_WB) {
   std::vector<Vector3d> axes;
   for (int i = 0; i < 3; ++i) {
@@ -218,8 +219,8 @@ TEST(Pairs, TwoBoxesAgreeWithTheSeparatingAxisTheorem) {
   EXPECT_GT(touching, 500);
 }
 
-/// Puts body 0 so that it is just in body 1 by `depth` [m] along the least way out. False where they are apart at
-/// first.
+/// Moves body 0 such that it penetrates body 1 by `depth` [m] along the shortest separating displacement. Returns false
+/// if they are separate at first.
 bool put_just_in(const geometry::Box& a, RigidTransform& X_WA, const geometry::Box& b, const RigidTransform& X_WB,
                  double depth, Vector3d& n) {
   const CollisionWorld world(scene_of({body_of(a), body_of(b, X_WB)}));
@@ -251,7 +252,7 @@ TEST(Pairs, MeshesOfBoxesTouchAsTheBoxesDo) {
       ASSERT_FALSE(found.empty());
       EXPECT_LE(found.size(), 16u);
       for (const ContactPoint& c : found) {
-        EXPECT_GT(c.n_W.dot(n), 0.99);  // a face within 8° of the edges' normal may be taken in their stead
+        EXPECT_GT(c.n_W.dot(n), 0.99);  // a face within 8° of the edges' normal may be reported instead
         EXPECT_LT(c.depth, 1.2 * depth);
         const Vector3d p_B = X_WB.inverse() * c.p_W;
         EXPECT_NEAR((p_B.cwiseAbs() - 0.5 * b.size).maxCoeff(), 0.0, 1e-8);
@@ -421,7 +422,7 @@ TEST(Pairs, InTheHollowOfABowlNothingIsTouched) {
 }
 
 TEST(Pairs, ARodThroughAPlateTouchesIt) {
-  // No corner of one is in the other, and the two curves push in opposite directions.
+  // No corner of one is inside the other, and the two curves push in opposite directions.
   for (const auto& [own, other] : std::vector<std::pair<geometry::Geometry, geometry::Geometry>>{
            {box_mesh(Vector3d(0.02, 0.02, 1.0)), geometry::Box{Vector3d(0.4, 0.4, 0.01)}},
            {geometry::Cylinder{0.01, 1.0}, geometry::Box{Vector3d(0.4, 0.4, 0.01)}},
@@ -449,7 +450,7 @@ TEST(Pairs, ABodyWedgedBetweenTwoWallsOfOneMeshTouchesThem) {
 }
 
 /// A slab with its top face, z = 0, cut into n × n squares.
-geometry::MeshPtr cut_slab(double size, double thickness, int n) {
+geometry::MeshPtr divided_slab(double size, double thickness, int n) {
   geometry::TriangleMesh mesh;
   const double step = size / n;
   for (const double z : {0.0, -thickness}) {
@@ -477,7 +478,7 @@ geometry::MeshPtr cut_slab(double size, double thickness, int n) {
 TEST(Pairs, HowFinelyAFloorIsCutDoesNotShow) {
   Random random(14);
   for (const int n : {1, 7, 25}) {
-    const geometry::MeshPtr floor = cut_slab(0.4, 0.05, n);
+    const geometry::MeshPtr floor = divided_slab(0.4, 0.05, n);
     ASSERT_NEAR(geometry::volume_properties(floor).volume, 0.4 * 0.4 * 0.05, 1e-12);
     for (int i = 0; i < 20; ++i) {
       const geometry::Box box = random_box(random);
@@ -552,7 +553,7 @@ TEST(Pairs, ABodyWithoutShapesOrAWorldWithoutBodiesTouchesNothing) {
   const CollisionWorld empty(scene_of({}));
 }
 
-// ---- on the way
+// ---- along a path
 
 TEST(MayTouch, NeverSaysNoWrongly) {
   Random random(12);
@@ -599,7 +600,7 @@ TEST(Sweep, SeesAThinWallAndATurn) {
   ASSERT_TRUE(through.hit);
   EXPECT_NEAR(through.free_fraction, 0.5 - 0.0105 / 2.0, 1e-9);
 
-  // A rod turns about its middle by 90°; a ball stands in the way at 45°.
+  // A rod turns about its centre by 90°; a ball blocks it at 45°.
   const double s = std::sqrt(0.5);
   const CollisionWorld rod(scene_of({body_of(geometry::Box{Vector3d(1.0, 0.01, 0.01)}),
                                      body_of(geometry::Sphere{0.01}, at(Vector3d(0.45 * s, 0.45 * s, 0)))}));
@@ -640,7 +641,8 @@ TEST(Sweep, TheFreeEndIsFreeAndTheTouchingEndTouches) {
 }
 
 TEST(Sweep, TheTimeOfImpactIsExact) {
-  // A box that flies and turns against the bench: its lowest corner is there where a bisection of the closed form says.
+  // A flying and turning box hits the bench: the time of impact of its lowest corner agrees with bisection of the
+  // closed form.
   Random random(31);
   for (int i = 0; i < 100; ++i) {
     const geometry::Box shape{Vector3d(random.vector(0.1).cwiseAbs() + Vector3d::Constant(0.01))};

@@ -1,4 +1,4 @@
-// Meshes at the side of a cylinder, held against a search along their edges.
+// Meshes at the side of a cylinder, compared with a search along their edges.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -27,7 +27,7 @@ std::string kind(int descriptor) {
 
 }  // namespace
 
-// In place of the C library's, so that what is brought to the disk before what is seen.
+// Replaces the C library's function, to record the order of flush and rename.
 extern "C" int fsync(int descriptor) {
   calls.push_back("fsync " + kind(descriptor));
   return static_cast<int>(syscall(SYS_fsync, descriptor));
@@ -85,7 +85,7 @@ TEST(OutputFile, WithoutCommitNothingIsThere) {
   EXPECT_EQ(files_in(folder.path("")), 0u);
 }
 
-/// As a header that tells the length of what follows.
+/// E.g. for a header with the length of the rest.
 TEST(OutputFile, TheBeginCanBeReplacedWhileMoreFollows) {
   const test_support::TemporaryFolder folder;
   const std::string path = folder.path("a.txt");
@@ -116,7 +116,7 @@ TEST(OutputFile, OnAFullDiskTheOldFileStays) {
   EXPECT_EQ(refusal("/dev/full", "x"), "/dev/full: cannot be written: No space left on device");
 }
 
-TEST(OutputFile, WhereNoFileCanBeItIsSaid) {
+TEST(OutputFile, AnUnwritablePathIsReported) {
   const test_support::TemporaryFolder folder;
   EXPECT_EQ(refusal(folder.path(""), "x"), folder.path("") + ": cannot be written: it is a folder");
   const std::string path = folder.path("none/a.txt");

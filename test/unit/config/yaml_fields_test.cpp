@@ -34,7 +34,7 @@ testing::AssertionResult names(const std::string& message, const std::vector<std
 
 YAML::Node node(const std::string& text) { return YAML::Load(text); }
 
-TEST(NumberRule, AllowsWhatItSaysAndNeverNan) {
+TEST(NumberRule, AllowsItsRangeAndNeverNan) {
   for (const validation::NumberRule& rule :
        {validation::any_number(), validation::positive(), validation::not_negative(), validation::between(-1.0, 2.0)}) {
     EXPECT_FALSE(rule.allows(std::nan("")));
@@ -172,7 +172,7 @@ TEST(YamlFields, NoByteOfTheInputControlsATerminalOrEndsTheLine) {
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("bad.yaml")); }), {"bad.yaml:1", "not YAML"}));
 }
 
-TEST(LoadYamlFile, GivesFileAndLineOfWhatIsNotYaml) {
+TEST(LoadYamlFile, ReportsFileAndLineOfInvalidYaml) {
   const test_support::TemporaryFolder folder;
   folder.write("good.yaml", "a: 1\n");
   folder.write("empty.yaml", "");
@@ -185,7 +185,7 @@ TEST(LoadYamlFile, GivesFileAndLineOfWhatIsNotYaml) {
   EXPECT_NE(message_of([&] { load_yaml_file(folder.path("")); }), "") << "a folder";
 }
 
-TEST(LoadYamlFile, RefusesWhatAliasesMakeEndlessOrImmense) {
+TEST(LoadYamlFile, RefusesEndlessOrHugeAliases) {
   const test_support::TemporaryFolder folder;
   folder.write("endless.yaml", "a: &a {b: *a}\n");
   std::string immense = "a: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
@@ -200,7 +200,7 @@ TEST(LoadYamlFile, RefusesWhatAliasesMakeEndlessOrImmense) {
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("immense.yaml")); }), {"immense.yaml", "size"}));
 }
 
-TEST(LoadYamlFile, TakesAsMuchAsItSaysAndNoMore) {
+TEST(LoadYamlFile, AcceptsItsCapacityAndNoMore) {
   const test_support::TemporaryFolder folder;
   const auto message = [&](const std::string& text) {
     folder.write("file.yaml", text);

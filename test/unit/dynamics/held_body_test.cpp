@@ -145,7 +145,7 @@ const std::vector<rod::ForkDofs> families{{true, true, true},  {true, true, fals
                                           {false, false, true}};
 
 TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
-  // D'Alembert: what the body's inertia, gravity and a load do along each coordinate is what spring and damper do.
+  // D'Alembert: inertia, gravity and load balance spring and damper in each coordinate.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const motion::MotionSegment hand = moving_hand(0.1);
@@ -332,7 +332,7 @@ TEST(HeldBody, EnergyChangesByTheWorkThatIsTold) {
   }
 }
 
-/// What is asked of one state again is the same as of a body that has not been asked anything.
+/// Results do not depend on earlier calls.
 TEST(HeldBody, PoseJacobianAndMassMatrixDoNotDependOnWhatWasAskedBefore) {
   const motion::MotionSegment hand = moving_hand(0.5);
   for (const std::string& shape : test_support::shape_names()) {

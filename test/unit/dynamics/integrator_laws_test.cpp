@@ -17,7 +17,7 @@ StrainState carried(Integrator& integrator, const Case& c, double t, double h, i
   return state;
 }
 
-/// At 0.2 s by the classical Runge–Kutta method at a fine step; made once for each rod.
+/// Solution at 0.2 s by the classical Runge–Kutta method at a fine step; computed once per rod.
 const StrainState& fine_solution(const Case& c, const std::string& shape, rod::DampingLaw law) {
   static std::map<std::pair<std::string, rod::DampingLaw>, StrainState> made;
   constexpr int steps = 8192;
@@ -70,7 +70,7 @@ TEST_P(EveryIntegrator, EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen
     const std::string shape =
         test_support::shape_names()[static_cast<std::size_t>(trial) % test_support::shape_names().size()];
     const Case c = random_case(shape, zeta, 1.0, random);
-    // Steps from well resolved to, where the method can, stiff.
+    // Steps from well resolved to (if the method allows) stiff.
     const double omega_dt = limited_by_stiffness(GetParam()) ? 0.02 * std::pow(20.0, uniform(random)) / (1.0 + zeta)
                                                              : 0.05 * std::pow(1000.0, uniform(random));
     const double h = std::min(omega_dt / c.omega, 0.05);
@@ -111,8 +111,8 @@ Eigen::Matrix<long double, 2, 1> oscillator(long double omega, long double zeta,
   return {(to_end(0, 2) * a + to_end(0, 3) * b) / omega, to_end(1, 2) * a + to_end(1, 3) * b};
 }
 
-/// Of one coordinate the motion under a hand whose acceleration is linear in time is exact to rounding in any number of
-/// steps, and has no floor where both rates of the mode nearly coincide.
+/// With one coordinate and a hand whose acceleration is linear in time, the motion is exact to rounding in any number
+/// of steps, even if both rates of the mode nearly coincide.
 TEST(Exponential, IsExactInOneCoordinateHoweverCloseToCriticalDamping) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

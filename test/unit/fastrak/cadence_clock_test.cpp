@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInterval = 1.0 / 120.0;
 
-/// Standard deviation of x less its mean.
+/// Standard deviation of x.
 struct Spread {
   double sum = 0.0, squares = 0.0;
   int count = 0;
@@ -34,7 +34,8 @@ struct Line {
   double poll = 0.0;        ///< receipts are at multiples of it, as behind a USB adapter [s]
 };
 
-/// Runs two minutes; the spread of receipts and of stamps about the device's own times, after ten seconds.
+/// Runs two minutes; returns the spread of receipts and of stamps about the device's own times, after the first ten
+/// seconds.
 std::pair<double, double> jitter(const Line& line, unsigned seed) {
   std::mt19937 random(seed);
   std::exponential_distribution<double> delay(1.0 / line.mean_delay);
@@ -84,7 +85,7 @@ TEST(CadenceClock, AfterALostRecordAtALowRateSixteenReceiptsDecide) {
   CadenceClock clock(interval);
   int early = 0;
   for (int k = 0; k < 300; ++k) {
-    if (k == 100) continue;  // no longer silence than between two others
+    if (k == 100) continue;  // the silence is no longer than between other records
     const double t = k * interval;
     early += t - clock.stamp(t) > 0.5 * interval;
   }
@@ -104,7 +105,7 @@ TEST(CadenceClock, DriftIsFollowedAfterTwoSeconds) {
   }
 }
 
-TEST(CadenceClock, LostRecordsAndStallsAreGotOver) {
+TEST(CadenceClock, RecoversFromLostRecordsAndStalls) {
   std::mt19937 random(9);
   std::exponential_distribution<double> delay(1.0 / 0.001);
   CadenceClock clock(kInterval);
@@ -129,7 +130,7 @@ TEST(CadenceClock, LostRecordsAndStallsAreGotOver) {
   EXPECT_LE(wrong, 8 * 61);
 }
 
-/// The cadence that the stream finds by itself serves as well as one that is known.
+/// The measured rate is as good as a known one.
 TEST(StationStream, StampsByTheCadenceThatItMeasures) {
   for (const double rate : {15.0, 50.0, 100.0, 120.0}) {
     for (const double poll : {0.0, 0.016}) {
@@ -157,8 +158,8 @@ TEST(StationStream, StampsByTheCadenceThatItMeasures) {
   }
 }
 
-/// Records that are lost just while the cadence is measured make it wrong for some ten seconds, and not for good.
-TEST(StationStream, MeasuresAnewACadenceThatProvesWrong) {
+/// Records lost during the measurement of the rate make it wrong for some ten seconds, but not permanently.
+TEST(StationStream, MeasuresAWrongRateAgain) {
   std::mt19937 random(8);
   std::exponential_distribution<double> delay(1.0 / 0.003);
   StationStream stream(0.5, true);
@@ -177,9 +178,8 @@ TEST(StationStream, MeasuresAnewACadenceThatProvesWrong) {
   EXPECT_LT(after.deviation(), before.deviation() / 20.0);
 }
 
-/// A hand that goes evenly along x at 1 m/s, read in bursts from the very start: what is played between the samples
-/// must stay on its way. Samples microseconds apart would make velocities of a thousand metres per second; the gate of
-/// who follows the hand leaves them out.
+/// A hand that moves along x at 1 m/s is read in bursts from the start: the interpolated motion must stay on its path.
+/// Samples microseconds apart would give velocities of a thousand metres per second; the gate rejects them.
 TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
   for (const double rate : {50.0, 120.0, 1000.0}) {
     std::mt19937 random(4);

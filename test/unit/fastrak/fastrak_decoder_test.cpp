@@ -18,7 +18,7 @@ using test_support::same_pose;
 
 const FastrakMode kBinary{FastrakFormat::binary, FastrakUnits::centimetres, false, true};
 
-/// What was sent, and the records that it must give.
+/// Bytes sent, and the expected records.
 struct Stream {
   std::vector<std::string> parts;
   std::vector<FastrakRecord> records;
@@ -69,7 +69,7 @@ TEST(FastrakDecoder, FindsEveryRecordOfACleanStreamAndNothingElse) {
   }
 }
 
-/// Data, a status, an error record and noise in front: wherever the bytes are split, the messages are the same.
+/// Data, a status, an error record and leading noise: the messages are the same wherever the bytes are split.
 TEST(FastrakDecoder, SplittingMakesNoDifferenceAtAnyPoint) {
   for (const auto& mode : test_support::all_modes()) {
     Stream stream = random_stream(mode, 3, 2);
@@ -98,8 +98,8 @@ TEST(FastrakDecoder, SplittingMakesNoDifferenceAtAnyPoint) {
   }
 }
 
-/// Each byte lost, each byte doubled: no pose that was not sent; only the record that was hit is gone, and in binary
-/// the one after it where the two together look like one.
+/// Each byte lost, each byte repeated: no pose that was not sent; only the affected record is lost and, in binary, the
+/// next one if the two together look like one.
 TEST(FastrakDecoder, OneByteLostOrDoubledCostsOneRecord) {
   for (const auto& mode : test_support::all_modes()) {
     const Stream stream = random_stream(mode, 5, 3);
@@ -150,7 +150,7 @@ TEST(FastrakDecoder, NoWrongPosePassesWhateverHappensToTheBytes) {
     std::vector<FastrakRecord> sent = stream.records;
     sent.insert(sent.end(), after.records.begin(), after.records.end());
     ASSERT_TRUE(all_were_sent(got, sent)) << seed;
-    // A header of garbage can take a record or two with it; then the stream is found again.
+    // A header in garbage can cost a record or two; then the stream is found again.
     ASSERT_GE(got.size(), 4u) << seed;
     for (std::size_t i = 0; i < 4; ++i) {
       ASSERT_TRUE(same_pose(got[got.size() - 4 + i], after.records[2 + i])) << seed;
@@ -159,7 +159,7 @@ TEST(FastrakDecoder, NoWrongPosePassesWhateverHappensToTheBytes) {
 }
 
 /// 10.012008666992188 is 0 1 blank A in bytes, which looks like a header.
-TEST(FastrakDecoder, GetsOutOfAFalseStart) {
+TEST(FastrakDecoder, RecoversFromAFalseStart) {
   FastrakMode plain = kBinary;
   plain.redundant = false;
   plain.units = FastrakUnits::inches;
@@ -186,7 +186,7 @@ TEST(FastrakDecoder, AnotherModeThanTheAskedGivesNothing) {
   }
 }
 
-TEST(FastrakDecoder, StationsThatNobodyAskedForAreLeftOut) {
+TEST(FastrakDecoder, StationsThatWereNotRequestedAreIgnored) {
   const std::map<int, FastrakLayout> only_two{{2, kBinary.layout(2)}};
   const Stream stream = random_stream(kBinary, 40, 10);
   FastrakDecoder decoder(only_two);

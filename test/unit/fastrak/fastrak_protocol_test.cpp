@@ -81,7 +81,7 @@ TEST(FastrakLayout, ReadsBinaryFloatsLeastByteFirst) {
   EXPECT_LT((held->p_TS - kInch * Vector3d(0.1875, 48.0, -30.0)).norm(), 1e-15);
 }
 
-/// The sheet's figure: azimuth 30, elevation 20, roll 10 degrees are R's first column and this quaternion.
+/// Known values: azimuth 30, elevation 20, roll 10 degrees give this first column of R and this quaternion.
 TEST(FastrakLayout, AnglesAreThoseOfTheManual) {
   const FastrakLayout layout({2, 4, 1}, FastrakFormat::ascii, FastrakUnits::inches);
   const auto record = layout.decode("01    0.00   0.00   0.00  30.00  20.00  10.00\r\n");
@@ -111,8 +111,8 @@ TEST(FastrakLayout, WhatIsEncodedIsDecodedToTheDigitsOfTheFormat) {
   }
 }
 
-/// The lists for a line without checksum: whichever one byte of a record is changed, into whatever, it is refused or
-/// gives the pose that was sent. In ASCII only digits beyond the shorter of the two writings may differ.
+/// Redundant lists, for a line without checksum: if any byte of a record is changed to any value, the record is refused
+/// or gives the pose that was sent. In ASCII only digits beyond the shorter of the two copies may differ.
 TEST(FastrakLayout, NoChangedByteOfARedundantRecordGivesAnotherPose) {
   Random random(4);
   for (const auto& mode : test_support::all_modes()) {
@@ -144,7 +144,7 @@ TEST(FastrakLayout, NoChangedByteOfARedundantRecordGivesAnotherPose) {
   }
 }
 
-/// Two records of one station of which the middle is lost, so that head and tail make up a whole one.
+/// Two records of one station with the middle lost, so that head and tail form a complete one.
 TEST(FastrakLayout, NoTwoHalvesOfRedundantRecordsGiveAThirdPose) {
   Random random(5);
   for (const auto& mode : test_support::all_modes()) {
@@ -165,7 +165,7 @@ TEST(FastrakLayout, NoTwoHalvesOfRedundantRecordsGiveAThirdPose) {
   }
 }
 
-TEST(FastrakLayout, RefusesWhatNoTrackerMeasures) {
+TEST(FastrakLayout, RefusesImplausibleRecords) {
   const FastrakLayout layout({2, 11, 0}, FastrakFormat::binary, FastrakUnits::centimetres);
   const auto with = [&](double x, double q) {
     FastrakRecord record;

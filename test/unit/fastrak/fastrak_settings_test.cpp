@@ -56,7 +56,7 @@ TEST(FastrakSettings, RefuseWithTheKeyInTheMessage) {
   }
 }
 
-/// Each portion ends a command that was cut before it, none leaves one open, and the switch cannot stop the stream.
+/// Each chunk terminates a preceding incomplete command, none leaves one open, and the switch cannot stop the stream.
 TEST(FastrakSettings, TheSetUpAsksForEverythingThatTheDriverReliesOn) {
   FastrakSettings settings;
   settings.stations = {1, 3};

@@ -52,8 +52,8 @@ FastrakRecord sent_record(int station, const motion::StylusSample& truth) {
 
 std::string key(int station, const motion::StylusSample& truth) { return key(sent_record(station, truth)); }
 
-/// What a mode's digits leave open, half of the last one: 0.01 cm and 0.01° or 1e-4 of a quaternion, in each number;
-/// binary angles lose what floats of degrees do.
+/// Rounding of a mode, half of the last digit: 0.01 cm and 0.01° or 1e-4 of a quaternion in each number; for binary
+/// angles, that of floats in degrees.
 struct Rounding {
   double position = 0.0;  ///< [m]
   double angle = 0.0;     ///< [rad]
@@ -82,7 +82,7 @@ class Bench {
     while (now() < until) step();
   }
 
-  /// Runs until a sample comes; its time [s].
+  /// Runs until a sample arrives; returns its time [s].
   double run_until_sample() {
     const std::size_t before = received_;
     const double give_up = now() + kDeadline;
@@ -100,9 +100,9 @@ class Bench {
   double now() const { return duration<double>(steady_clock::now() - start_).count(); }
   const FastrakSource& source() const { return *source_; }
   std::size_t received() const { return received_; }
-  /// Samples that were not sent, to the last bit.
+  /// Number of samples that do not equal a sent one bit for bit.
   std::size_t wrong() const { return wrong_; }
-  /// Samples that are further from all that was sent than the mode's digits leave open.
+  /// Number of samples that differ from every sent one by more than the mode's rounding.
   std::size_t far() const { return far_; }
 
  private:
@@ -150,14 +150,14 @@ FastrakSettings two_stations() {
   return settings;
 }
 
-/// The reader's end of a line, looked at from beside.
+/// The reader's end of the line, observed independently.
 class Line {
  public:
   explicit Line(const std::string& port) : file_(open(port.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK)) {}
   ~Line() { close(file_); }
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
-  /// That there is nothing to read.
+  /// Whether there is nothing to read.
   bool empty() const {
     int bytes = 0;
     return ioctl(file_, FIONREAD, &bytes) == 0 && bytes == 0;
@@ -202,8 +202,7 @@ TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
     if (!samples.empty()) last_receipt = steady_clock::now();
     for (const motion::StationSample& sample : samples) {
       const auto is_next = [&] { return key(sample) == key(sample.station, motions[0].at(on_the_way.front())); };
-      while (received == 0 && !on_the_way.empty() && !is_next())
-        on_the_way.pop_front();  // those of a set-up begun anew
+      while (received == 0 && !on_the_way.empty() && !is_next()) on_the_way.pop_front();  // those of a restarted set-up
       ASSERT_FALSE(on_the_way.empty());
       const int station = static_cast<int>(received++ % 4) + 1;  // each in its turn
       wrong += is_next() && sample.station == station ? 0 : 1;
@@ -244,8 +243,8 @@ struct NamedFault {
 };
 class Faults : public testing::TestWithParam<NamedFault> {};
 
-/// A fault from 0.3 s on: no pose passes that was not sent, and good ones come again. How soon is printed; a busy
-/// machine may take longer.
+/// A fault from 0.3 s on: no pose passes that was not sent, and good ones return. The time is printed; a busy machine
+/// may take longer.
 TEST_P(Faults, PassNoWrongPoseAndEnd) {
   Bench bench({std::string(GetParam().fault) + ",from=0.3,until=0.6"}, two_stations());
   bench.run_until_sample();
@@ -263,7 +262,7 @@ INSTANTIATE_TEST_SUITE_P(EachKind, Faults,
                                          NamedFault{"error", 0.6}, NamedFault{"silence", 0.6},
                                          NamedFault{"wrong_mode", 0.3}, NamedFault{"unplug", 0.6}));
 
-/// So that consumers which look at intervals see none of nothing.
+/// So that consumers never see intervals of zero.
 TEST(FastrakSource, StampsRecordsThatAreReadTogetherOneAfterTheOther) {
   test_support::TemporaryFolder folder;
   FastrakSimulator simulator(FastrakDevice(hands()), LineFaults(), folder.path("port"));
@@ -296,7 +295,7 @@ TEST(FastrakSource, TakesOverADeviceThatStreamsInAnotherMode) {
   EXPECT_EQ(bench.wrong(), 0u);
 }
 
-TEST(FastrakSource, SaysWhatIsWrong) {
+TEST(FastrakSource, ReportsWhatIsWrong) {
   FastrakSettings settings;
   settings.port = "/nonexistent/port";
   FastrakSource no_port(settings);

@@ -37,15 +37,15 @@ double volume(const ForkMesh& mesh, const ForkModel::Triangles& triangles) {
 
 class DeformedFork : public testing::Test {
  protected:
-  /// A fine fork, deformed at random.
+  /// A finely meshed fork, deformed randomly.
   void deform() {
     q_ = random_strain(*shape_, 0.5, random_);
     X_WH_ = random_.pose(1.0);
     model_.deform(rod_curve(*shape_, q_, X_WH_), diameter, mesh_);
   }
 
-  static ForkLook fine() {
-    ForkLook look;
+  static ForkAppearance fine() {
+    ForkAppearance look;
     look.points_per_turn = 48;
     look.wire_sides = 16;
     return look;
@@ -75,7 +75,7 @@ TEST_F(DeformedFork, IsClosedAndNormalsAreUnitAndRight) {
       ASSERT_GT(area.norm(), 0.0);
       Vector3d normal = Vector3d::Zero();
       for (int k = 0; k < 3; ++k) normal += mesh_.normals[static_cast<std::size_t>(t[k])] / 3.0;
-      EXPECT_GT(normal.dot(area.normalized()), 0.93);  // flat facets of something round
+      EXPECT_GT(normal.dot(area.normalized()), 0.93);  // flat facets of a round surface
     }
     EXPECT_LT(sum.norm(), 1e-12);
     EXPECT_GT(volume(mesh_, model_.spring()), 0.0);
@@ -184,15 +184,15 @@ TEST_F(DeformedFork, TheCoilIsAsWideAsItsDiameterAndAFifthOfItThickAreTheDiscs) 
   EXPECT_NEAR(disc_ends, L + 0.2 * diameter, 1e-12);
 }
 
-/// Closed surfaces whose parts are where they belong: the probe's needle ends at the tip, a beam and a cursor are as
-/// thick as rigid tools are.
-TEST(ForkModel, EachToolHasALookOfItsOwn) {
+/// Closed surfaces with correct dimensions: the probe's needle ends at the tip; beam and cursor have the thickness of
+/// rigid tools.
+TEST(ForkModel, EachToolHasItsOwnAppearance) {
   const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   const rod::StrainVector q = rod::StrainVector::Zero(shape->size());
   const ForkCurve curve = rod_curve(*shape, q, RigidTransform::Identity());
   std::map<std::string, Eigen::AlignedBox3d> boxes;
   for (const std::string tool : {"spring_fork", "spring", "spring_probe", "direct", "ray"}) {
-    const ForkModel model(look_of(tool));
+    const ForkModel model(appearance_of(tool));
     ForkMesh mesh;
     model.deform(curve, drawn_diameter(tool, L), mesh);
     ASSERT_EQ(mesh.vertices.size(), model.vertex_count());
@@ -213,14 +213,14 @@ TEST(ForkModel, EachToolHasALookOfItsOwn) {
   EXPECT_NEAR(drawn_diameter("spring_fork", L), 0.16 * L, 1e-15);
   EXPECT_NEAR(drawn_diameter("spring_fork", L, 0.3), 0.3 * L, 1e-15);
   EXPECT_EQ(drawn_diameter("ray", L, 0.3), drawn_diameter("ray", 10.0 * L));
-  EXPECT_THROW(look_of("hammer"), validation::InputError);
+  EXPECT_THROW(appearance_of("hammer"), validation::InputError);
 }
 
 /// The needle is as long as its diameter says and ends at the tip, so of the spring there is what is left behind it,
 /// however far it is compressed.
 TEST(ForkModel, TheProbesSpringEndsWhereItsNeedleBegins) {
   const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
-  const ForkModel model(look_of("spring_probe"));
+  const ForkModel model(appearance_of("spring_probe"));
   for (const double share : {0.01, 0.16, 0.3}) {
     for (const double compression : {0.0, 0.2, 0.5}) {
       rod::StrainVector q = rod::StrainVector::Zero(shape->size());
@@ -229,17 +229,17 @@ TEST(ForkModel, TheProbesSpringEndsWhereItsNeedleBegins) {
       model.deform(rod_curve(*shape, q, RigidTransform::Identity()), share * L, mesh);
       double wire_end = 0.0;
       for (const Eigen::Vector3i& t : model.spring()) wire_end = std::max(wire_end, corner(mesh, t, 0).z());
-      const double begin_of_needle = (1.0 - compression) * L - ForkLook().needle_length * share * L;
-      EXPECT_NEAR(wire_end, begin_of_needle, ForkLook().wire_radius * share * L) << share << ' ' << compression;
+      const double begin_of_needle = (1.0 - compression) * L - ForkAppearance().needle_length * share * L;
+      EXPECT_NEAR(wire_end, begin_of_needle, ForkAppearance().wire_radius * share * L) << share << ' ' << compression;
     }
   }
 }
 
 TEST(ForkModel, RefusesALookThatIsNoSurface) {
-  ForkLook look;
+  ForkAppearance look;
   look.wire_sides = 2;
   EXPECT_THROW(ForkModel{look}, validation::InputError);
-  look = ForkLook();
+  look = ForkAppearance();
   look.prong_length = 0.0;
   EXPECT_THROW(ForkModel{look}, validation::InputError);
 }

@@ -25,9 +25,9 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double h = 2e-3, gravity = 9.81, edge = 0.04;
-constexpr std::size_t nothing = static_cast<std::size_t>(-1);  // what does not move
+constexpr std::size_t nothing = static_cast<std::size_t>(-1);  // a fixed body
 
-/// Cubes, and what is between them, over a step of `h`: motions are displacements, loads forces.
+/// Cubes and the contacts between them over a step of `h`; motions are displacements, loads are forces.
 struct Boxes {
   struct Box {
     Vector3d p_W;
@@ -299,7 +299,7 @@ TEST(ContactProblem, TheSameProblemGivesTheSameBits) {
 
 TEST(ContactProblem, WhatCannotBeSolvedLoadsNothing) {
   ContactProblem problem;
-  problem.add_contact(0.5, -Vector3d::UnitX(), Vector3d::Ones());  // it closes, and nothing gives way
+  problem.add_contact(0.5, -Vector3d::UnitX(), Vector3d::Ones());  // it closes, but nothing can yield
   EXPECT_EQ(problem.solve(1e-4, 1e-6).residual, 0.0);
   EXPECT_EQ(problem.load(0), Vector3d::Zero());
   problem.clear();

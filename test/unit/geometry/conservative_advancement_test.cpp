@@ -22,7 +22,7 @@ OutlineBox moved(const OutlineBox& box, const StraightMotion& motion, double fra
 
 TEST(ClearWay, NoBoxIsDeeperOnItThanTheTolerance) {
   Random random(7);
-  int cut = 0, long_ways = 0;
+  int cut = 0, long_paths = 0;
   for (int i = 0; i < 2000; ++i) {
     const auto size = [&] { return Vector3d(random.vector(0.1).cwiseAbs() + Vector3d::Constant(0.005)); };
     const OutlineBox own{random.pose(0.2), size(), true}, other{random.pose(0.2), size(), true};
@@ -33,13 +33,13 @@ TEST(ClearWay, NoBoxIsDeeperOnItThanTheTolerance) {
     ASSERT_GE(clear, 0.0);
     ASSERT_LE(clear, 1.0);
     if (clear < 1.0) ++cut;
-    if (clear > 0.05) ++long_ways;
+    if (clear > 0.05) ++long_paths;
     for (int k = 0; k <= 20; ++k) {
       EXPECT_GE(gap_between(moved(own, motion, clear * k / 20.0), other).gap, -tolerance - 1e-12) << i;
     }
   }
   EXPECT_GT(cut, 200);
-  EXPECT_GT(long_ways, 200);
+  EXPECT_GT(long_paths, 200);
 }
 
 TEST(ClearWay, StraightOntoAFaceItIsExact) {

@@ -90,7 +90,7 @@ TEST(Solids, FlushFacesTouchWithTheirCornersOnce) {
   }
 }
 
-// Where two faces meet in a groove, a corner that is behind both is before neither: contacts there were lost.
+// In a groove between two faces, a corner behind both is in front of neither; such contacts used to be lost.
 TEST(Solids, ACornerThatIsDeepInAGrooveTouchesBothFlanks) {
   const Vector3d groove = 0.015 * Vector3d(1.0, 1.0, 0.0).normalized();
   const Quaterniond corner_first = Quaterniond::FromTwoVectors(Vector3d(-1.0, -1.0, -1.0), -groove);

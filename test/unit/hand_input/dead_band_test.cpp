@@ -38,8 +38,8 @@ RigidTransform trembling(double t, double noise, double angle_noise, std::mt1993
   return X;
 }
 
-/// It is never farther from the tracked hand than the band, and a step is that of the hand and what the play shrinks
-/// by.
+/// The followed pose is never farther from the tracked hand than the band, and its step is at most that of the hand
+/// plus the decrease of the distance.
 TEST(DeadBand, FollowsWithinTheBandAndNeverJumps) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -67,7 +67,7 @@ TEST(DeadBand, FollowsWithinTheBandAndNeverJumps) {
   EXPECT_LT(rested, 3000);
 }
 
-/// A hand that goes on at a speed is followed exactly in the end, not at the band's distance.
+/// A hand in steady motion is eventually followed exactly, not at the band's distance.
 TEST(DeadBand, ForgetsItsPlayDuringMotion) {
   DeadBand band(with_band(kBand, kAngleBand));
   RigidTransform raw = RigidTransform::Identity();
@@ -97,8 +97,8 @@ TEST(DeadBand, AfterARestartTheNextSampleIsFollowedExactly) {
   EXPECT_EQ(band.filter({2.0, b}).X.matrix(), b.matrix());
 }
 
-/// What a trembling hand holds sleeps while the hand rests, before and after its motion, and is where a hand that does
-/// not tremble leaves it, to within the band.
+/// The object of a trembling hand sleeps while the hand rests, before and after a motion, and ends where a steady hand
+/// leaves it, to within the band.
 TEST(DeadBand, WhatATremblingHandHoldsSleepsWhileTheHandRests) {
   for (const bool banded : {false, true}) {
     std::mt19937 random(7);

@@ -50,8 +50,8 @@ void expect_same_objects(const simulation::Simulation& a, const simulation::Simu
   }
 }
 
-/// Pushed all at once or sample by sample with time going on in between: the same bits, as long as each advance ends
-/// before the last sample but one, since the motion from there on hangs on samples to come.
+/// Samples pushed all at once or one by one with advances in between give identical bits, as long as each advance ends
+/// before the last sample but one, since the motion after it depends on later samples.
 TEST(Feed, AMotionAtOnceAndSampleBySampleAreTheSame) {
   for (const double min_cutoff : {0.0, 2.0}) {
     InputSettings settings;
@@ -99,7 +99,7 @@ TEST(Feed, APoseOfAMotionReachesTheSimulationToTheBit) {
   expect_same_objects(fed, pushed);
 }
 
-/// Raw samples in a turned tracker's frame do what the poses in world do.
+/// Raw samples in the frame of a rotated tracker are equivalent to the poses in world.
 TEST(Feed, RawSamplesInATrackersFrameAreThePosesInWorld) {
   const RigidTransform X_WP = make_transform(Quaterniond(0.8, 0.0, 0.6, 0.0), Vector3d(0.3, -0.2, 0.1));
   simulation::Simulation a = make_simulation(), b = make_simulation();
@@ -114,7 +114,7 @@ TEST(Feed, RawSamplesInATrackersFrameAreThePosesInWorld) {
   EXPECT_LT((a.fork().X_WE.matrix() - b.fork().X_WE.matrix()).norm(), 1e-9);
 }
 
-TEST(Feed, HandsThatAreLostOnTheWayLetGoEachAtItsTime) {
+TEST(Feed, LostHandsReleaseEachAtItsTime) {
   for (const OnLoss on_loss : {OnLoss::freeze, OnLoss::release}) {
     InputSettings settings;
     settings.on_loss = on_loss;
@@ -144,12 +144,12 @@ TEST(Feed, HandsThatAreLostOnTheWayLetGoEachAtItsTime) {
   }
 }
 
-/// All stops up to now, and time there.
+/// Commits up to all stops until `now`.
 void commit(Feed& feed, const LocalTime& now) {
   while (const auto stop = feed.next_stop(now)) feed.advance_to(*stop);
 }
 
-TEST(Feed, TheSlowestHandSaysHowFarToGoUntilItIsSilent) {
+TEST(Feed, TheSlowestHandLimitsTimeUntilItIsSilent) {
   simulation::Simulation simulation = make_simulation();
   Feed feed(simulation, InputSettings());
   const RigidTransform X_WP = RigidTransform::Identity();
@@ -179,7 +179,7 @@ TEST(Feed, TheSlowestHandSaysHowFarToGoUntilItIsSilent) {
   EXPECT_TRUE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));
 }
 
-/// Committed at moments of any kind, often or seldom, with buttons at any time: the same bits.
+/// Identical bits whether commits are frequent or rare, with buttons at any time.
 TEST(Feed, WhatIsCommittedDependsOnTheMessagesAlone) {
   std::vector<simulation::SimulationState> ends;
   for (const unsigned every : {1u, 3u, 17u}) {
@@ -203,7 +203,7 @@ TEST(Feed, WhatIsCommittedDependsOnTheMessagesAlone) {
   EXPECT_EQ(ends[2].hash(), ends[0].hash());
 }
 
-/// Samples of every kind of wrongness, mixed with those of a hand.
+/// Invalid samples of every kind, mixed with those of a hand.
 std::vector<RawSample> rubbish(unsigned seed, int count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> number(-2.0, 2.0);

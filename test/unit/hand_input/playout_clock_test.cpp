@@ -16,10 +16,10 @@ LocalTime both(double t) { return {t, t}; }
 
 TEST(PlayoutClock, NothingIsKnownBeforeTheSecondSample) {
   PlayoutClock clock(dropout_after);
-  EXPECT_EQ(clock.known_until(both(123.0)), -infinity);
+  EXPECT_EQ(clock.complete_until(both(123.0)), -infinity);
   EXPECT_EQ(clock.rests_until(both(123.0)), -infinity);
   clock.sample(1.0, both(123.0));
-  EXPECT_EQ(clock.known_until(both(123.1)), -infinity);
+  EXPECT_EQ(clock.complete_until(both(123.1)), -infinity);
 }
 
 TEST(PlayoutClock, TheSampleBeforeTheNewestIsTheEndWhateverTheMoment) {
@@ -33,25 +33,25 @@ TEST(PlayoutClock, TheSampleBeforeTheNewestIsTheEndWhateverTheMoment) {
     t += interval(random);
     attended += quick(random);
     clock.sample(t, {100.0 + t, attended});
-    EXPECT_EQ(clock.known_until({100.0 + t + late(random), attended + quick(random)}), before);
+    EXPECT_EQ(clock.complete_until({100.0 + t + late(random), attended + quick(random)}), before);
   }
-  EXPECT_EQ(clock.known_until({100.0 + t + 2.0, attended + 1.0}), infinity);  // but silence is silence
+  EXPECT_EQ(clock.complete_until({100.0 + t + 2.0, attended + 1.0}), infinity);  // but silence is silence
 }
 
 TEST(PlayoutClock, ButtonsHoldItBackWhileMessagesAboutThemCome) {
   PlayoutClock clock(dropout_after);
   for (const double t : {0.0, 0.02, 0.04}) clock.sample(t, both(10.0 + t));
   clock.buttons(0.01, both(10.03));
-  EXPECT_EQ(clock.known_until(both(10.05)), 0.01);
-  EXPECT_EQ(clock.known_until(both(10.25)), 0.02);
+  EXPECT_EQ(clock.complete_until(both(10.05)), 0.01);
+  EXPECT_EQ(clock.complete_until(both(10.25)), 0.02);
 }
 
 TEST(PlayoutClock, ASilentHandRestsOnByTheLocalClock) {
   PlayoutClock clock(dropout_after);
   clock.sample(0.00, both(10.00));
   clock.sample(0.02, both(10.02));
-  EXPECT_EQ(clock.known_until(both(10.02 + dropout_after - 0.001)), 0.0);
-  EXPECT_EQ(clock.known_until(both(10.02 + dropout_after + 0.001)), infinity);
+  EXPECT_EQ(clock.complete_until(both(10.02 + dropout_after - 0.001)), 0.0);
+  EXPECT_EQ(clock.complete_until(both(10.02 + dropout_after + 0.001)), infinity);
   EXPECT_NEAR(clock.rests_until(both(10.02 + 2.0)), 2.0, 1e-12);
 }
 
@@ -73,7 +73,7 @@ TEST(PlayoutClock, SmoothsTheIntervalAndWaitsForSilence) {
     PlayoutClock stood(dropout_after);
     stood.sample(0.00, {10.00, 0.0});
     stood.sample(0.02, {10.02, 0.0});
-    EXPECT_EQ(std::isinf(stood.known_until({20.0, attended})), attended > 0.2) << attended;
+    EXPECT_EQ(std::isinf(stood.complete_until({20.0, attended})), attended > 0.2) << attended;
   }
 }
 
@@ -82,7 +82,7 @@ TEST(PlayoutClock, ClearForgetsAll) {
   clock.sample(0.00, both(10.00));
   clock.sample(0.02, both(10.02));
   clock.clear();
-  EXPECT_EQ(clock.known_until(both(11.0)), -infinity);
+  EXPECT_EQ(clock.complete_until(both(11.0)), -infinity);
 }
 
 }  // namespace

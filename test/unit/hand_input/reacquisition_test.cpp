@@ -31,7 +31,7 @@ TEST(Reacquisition, AHandThatIsNeverLostIsFollowedToTheBit) {
   EXPECT_EQ(hand.counts().reacquisitions, 0u);
 }
 
-/// A hand that turns and moves evenly.
+/// A hand that moves and turns at constant rates.
 struct EvenHand {
   RigidTransform X_0;
   Vector3d v, w;
@@ -74,8 +74,8 @@ TEST(Reacquisition, SetsOutWhereItWasHeldAtRestWithinTheSpeedsAndArrivesExactly)
   }
 }
 
-/// Half of the speed after half of the ramp; e times nearer after each time constant; the last 10 µm, or 0.1 mrad, at
-/// once.
+/// Half of the speed after half of the ramp; distance divided by e after each time constant; the last 10 µm, or 0.1
+/// mrad, at once.
 TEST(Reacquisition, ComesInOverItsRampAndArrivesWithItsTimeConstant) {
   constexpr double ramp = 0.2, tail = 0.1, h = 1e-4;
   for (const bool turns : {false, true}) {
@@ -139,7 +139,7 @@ TEST(Reacquisition, SamplesWhoseTimeIsSimulatedComeTooLate) {
   EXPECT_EQ(hand.counts().reacquisitions, 1u);
 }
 
-TEST(Reacquisition, ALostHandLetsGoOnceOrNever) {
+TEST(Reacquisition, ALostHandReleasesOnceOrNever) {
   for (const OnLoss on_loss : {OnLoss::freeze, OnLoss::release}) {
     InputSettings settings;
     settings.on_loss = on_loss;

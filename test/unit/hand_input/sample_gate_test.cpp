@@ -17,7 +17,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kDropout = 0.5;
 constexpr double kInterval = 1.0 / 120.0;
 
-/// A quick hand: at most 2 m/s and 7 rad/s.
+/// A fast hand: at most 2 m/s and 7 rad/s.
 RawSample hand(double t) {
   RawSample sample;
   sample.t = t;
@@ -60,7 +60,7 @@ TEST(SampleGate, NothingThatIsNotAPoseGetsThrough) {
   EXPECT_EQ(counts.rejected.at(GateResult::too_far), 1u);
 }
 
-TEST(SampleGate, AStampThatIsNotLaterIsLeftOut) {
+TEST(SampleGate, AStampThatIsNotLaterIsRejected) {
   SampleGate gate(InputSettings(), kDropout);
   for (int k = 0; k < 100; ++k) {
     EXPECT_TRUE(usable(gate.offer(hand(kInterval * k))));
@@ -174,8 +174,8 @@ TEST(SampleGate, AStreamThatBeginsAtTheOriginIsTrue) {
   }
 }
 
-/// What is near the sample before, in place, turn or time, and on both sides of the limits.
-TEST(SampleGate, WhatAHandCanAlwaysHaveDone) {
+/// Samples close to the previous one in position, rotation or time, on both sides of the limits.
+TEST(SampleGate, AcceptsWhatAHandCanAlwaysDo) {
   InputSettings settings;
   settings.max_speed = settings.max_turn_rate = 1e-3;
   const auto after = [&](double dt, double way, double turn) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kInterval = 0.02, kNoise = 5e-4;
 
-/// The hand presses a probe into a spring K with a damper C beside it, to and fro as people do: depth d(t), and
-/// F = K d + C ḋ; the tracker adds its noise to the path.
+/// A hand presses a probe into a spring K with a parallel damper C, back and forth as people do: depth d(t), F = K d +
+/// C ḋ; the tracker adds noise to the path.
 struct Touch {
   double stiffness, damping, depth, duration, rate;
 
@@ -44,7 +44,7 @@ TEST(MaterialEstimate, WithoutNoiseItIsExact) {
   }
 }
 
-TEST(MaterialEstimate, CoversTheTruthAsOftenAsItSays) {
+TEST(MaterialEstimate, IntervalsHaveTheirNominalCoverage) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   int stiffness_covered = 0, damping_covered = 0;
@@ -65,7 +65,7 @@ TEST(MaterialEstimate, CoversTheTruthAsOftenAsItSays) {
   EXPECT_NEAR(static_cast<double>(damping_covered) / touches, 0.95, 0.02);
 }
 
-TEST(MaterialEstimate, FindsTheDampingThatIsThere) {
+TEST(MaterialEstimate, FindsTheTrueDamping) {
   std::mt19937 random(3);
   const Touch touch{2e3, 400.0, 0.05, 4.0, 0.4};
   const auto reading = estimate_of(touch, 1e5, kNoise, random).reading();
@@ -75,7 +75,7 @@ TEST(MaterialEstimate, FindsTheDampingThatIsThere) {
   EXPECT_GT(reading->damping.low, 0.0);
 }
 
-/// A touch that begins with an impact on a damper: the force is there before the spring is pressed.
+/// A touch that starts with an impact on a damper: there is a force before the spring is compressed.
 TEST(MaterialEstimate, AnImpactAtTheBeginningDoesNotBiasIt) {
   const double stiffness = 2e3, damping = 90.0;
   MaterialEstimate estimate(2e3);
@@ -88,7 +88,7 @@ TEST(MaterialEstimate, AnImpactAtTheBeginningDoesNotBiasIt) {
   EXPECT_NEAR(estimate.reading()->damping.value, damping, 0.03 * damping);
 }
 
-TEST(MaterialEstimate, SaysNothingBeforeItCan) {
+TEST(MaterialEstimate, HasNoReadingBeforeEnoughData) {
   MaterialEstimate estimate(1e3);
   EXPECT_FALSE(estimate.reading());
   for (int i = 0; i < 50; ++i) {  // a constant force says nothing of a spring

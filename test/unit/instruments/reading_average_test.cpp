@@ -17,7 +17,7 @@ tools::ToolState carrying(double weight, double torque = 0.0, const std::string&
 }
 
 /// White noise on a weight of 3 vkg: the truth is in the interval of Student's t with nine degrees of freedom in 95 %.
-TEST(ReadingAverage, CoversTheTruthAsOftenAsItSays) {
+TEST(ReadingAverage, IntervalsHaveTheirNominalCoverage) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 0.2);
   int covered = 0, torque_covered = 0;
@@ -60,7 +60,7 @@ TEST(ReadingAverage, FillsInAToolThatCarriesTheSame) {
   }
 }
 
-TEST(ReadingAverage, StartsAnewWithAnotherObjectAndWhenTimeGoesBack) {
+TEST(ReadingAverage, RestartsWithAnotherObjectAndWhenTimeGoesBack) {
   ReadingAverage average;
   tools::ToolState tool;
   const auto at = [&](double t, double weight, const std::string& object) {

@@ -10,14 +10,14 @@ scene::Scene shipped(const std::string& name) {
   return scene::load_scene(test_support::checkout("scenes/" + name + ".urdf"));
 }
 
-/// With `calibrate: world` another scene has another fork; what was switched stays.
+/// With `calibrate: world` another scene has another fork; switched DOFs are kept.
 TEST(SimulationRunner, AnotherSceneHasAForkOfItsOwn) {
   simulation::SimulationSettings settings;
   settings.grasp.calibrate = tools::Calibration::world;
   SimulationRunner runner(shipped("single_box"), settings, hand_input::InputSettings(), false);
   Command stiff;
   stiff.kind = Command::Kind::settings;
-  stiff.of_fork.dofs = rod::ForkDofs{true, true, false};
+  stiff.fork_change.dofs = rod::ForkDofs{true, true, false};
   runner.change("stiff", stiff);
   runner.load(shipped("heavy"));
   const rod::ForkSettings fork = runner.locked([](const auto& s) { return s.fork_settings(1); });

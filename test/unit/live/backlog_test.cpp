@@ -8,7 +8,7 @@
 namespace spring_workbench::live::backlog_test {
 namespace {
 
-/// A maker that is faster than the taker waits each time the backlog is full; nothing is lost or changes its place.
+/// A producer that is faster than the consumer waits each time the backlog is full; nothing is lost or reordered.
 TEST(Backlog, HoldsNoMoreThanItMayAndCountsTheWaits) {
   constexpr std::size_t rounds = 4;
   for (const std::size_t most : {std::size_t{1}, std::size_t{3}, std::size_t{1000}}) {

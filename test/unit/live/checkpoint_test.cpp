@@ -33,7 +33,7 @@ std::string refusal(Do&& act) {
   return "";
 }
 
-/// A box on the bench, and what the edits of its user make of it.
+/// A session with a box on the bench and edits.
 struct Session {
   Session() {
     scene::Scene scene =
@@ -72,7 +72,7 @@ TEST(Checkpoint, AnotherRunnerGoesOnFromItsText) {
   EXPECT_EQ(texts.size(), 3u);
 }
 
-/// Wherever a text is cut, and whichever of its digits changes, nothing of it is used.
+/// A truncated text, or one with any changed digit, is not used at all.
 TEST(Checkpoint, OfADamagedTextNothingIsUsed) {
   Session first, second;
   first.move(0.1);
@@ -91,7 +91,7 @@ TEST(Checkpoint, OfADamagedTextNothingIsUsed) {
     EXPECT_NE(refusal([&] { other.resume(spoilt, "file", {}); }), "") << at;
   }
   EXPECT_EQ(refusal([&] { Checkpoint(*second.runner, "b.urdf").resume(text, "file", {}); }),
-            "file: given_scene: must be that of this start, b.urdf, got a.urdf");
+            "file: given_scene: must be the scene of this start, b.urdf, got a.urdf");
   EXPECT_EQ(second.place(), before);
   other.resume(text, "file", {});
   EXPECT_EQ(second.place(), first.place());
@@ -114,7 +114,7 @@ TEST(CheckpointFile, HoldsWhatWasWrittenLast) {
   EXPECT_FALSE(fs::exists(folder.path("a")));
 }
 
-/// A FIFO would be waited for, a device without an end read for ever, a link followed, somebody's file replaced.
+/// Otherwise a FIFO would block, an endless device be read forever, a link be followed, or a foreign file be replaced.
 TEST(CheckpointFile, WhatIsNotOursIsLeftAlone) {
   const test_support::TemporaryFolder folder;
   CheckpointFile(folder.path("ours")).write("text");

@@ -26,7 +26,7 @@ scene::Scene one_box(double mass) {
 
 std::int64_t nanoseconds(double s) { return std::llround(1e9 * s); }
 
-/// A hand with a sender and a host of its own clocks, which somebody sets.
+/// A hand whose sender and host have their own clocks, which can be set.
 class Session {
  public:
   /// The hand grasps the box and carries it off, so that a scene that began again would show; `holds`: or lets go
@@ -41,25 +41,25 @@ class Session {
     run(1.5);
   }
 
-  /// Samples for so long; `heard`: whether this process looks at them before the end.
-  void run(double seconds, bool heard = true) {
+  /// Samples for so long; `report_arrival`: whether this process looks at them before the end.
+  void run(double seconds, bool report_arrival = true) {
     for (const double end = t_ + seconds; t_ < end - 1e-9;) {
       t_ += interval;
       send();
-      if (heard) cycle();
+      if (report_arrival) cycle();
     }
-    if (!heard) cycle();
+    if (!report_arrival) cycle();
   }
   void set_clocks(double host, double sender) {
     host_set_ += host;
     sender_set_ += sender;
   }
-  /// The machine is asleep: its wall clock goes on, its steady clock does not.
+  /// Suspends the machine: the wall clock advances, the steady clock does not.
   void suspend(double seconds) { set_clocks(seconds, seconds); }
-  /// This process is stopped while the hand goes on.
+  /// Stops this process while the hand continues.
   void stop(double seconds) { run(seconds, false); }
 
-  /// Two samples with stamps that are off by so much, among those that are right.
+  /// Sends two samples with stamps off by `ahead` [s] among correct ones.
   void send_odd(double ahead) {
     for (int k = 0; k < 2; ++k) {
       run(interval);
@@ -69,7 +69,7 @@ class Session {
       cycle();
     }
   }
-  /// From now on the tracker is known to be elsewhere.
+  /// Moves the tracker's frame from now on.
   void move_tracker(const Vector3d& p) { X_WP_.translation() = p; }
   /// Largest force on the handle since the last call [N].
   double strongest() { return std::exchange(strongest_, 0.0); }
@@ -88,7 +88,7 @@ class Session {
   Vector3d true_hand() const {
     return grip + carried_ + moves * Vector3d(0.1 * std::sin(3.0 * t_), 0.0, 0.05 * std::sin(5.0 * t_));
   }
-  /// Stamp of the committed time less that of the newest sample, by the host's clock [s].
+  /// Stamp of the committed time minus that of the newest sample, by the host's clock [s].
   double stamp_lag() {
     const motion::WallMoment now = host();
     return 1e-9 * static_cast<double>(now.now - stamp_of(runner_));
@@ -164,7 +164,7 @@ std::vector<Fault> faults() {
   return all;
 }
 
-/// Beside a session without the fault: it and the hand stay together, all the time.
+/// Compared with a session without the fault, the hand never deviates.
 TEST(Clocks, AStepIsAnOffsetAndNothingMovesForIt) {
   for (const Fault& fault : faults()) {
     for (const bool holds : {true, false}) {
@@ -192,7 +192,7 @@ TEST(Clocks, AStepIsAnOffsetAndNothingMovesForIt) {
   }
 }
 
-/// What a step moves a resting hand's box by, at any moment.
+/// A step of a clock never moves the box of a resting hand.
 TEST(Clocks, AtRestNothingMovesEver) {
   for (const Fault& fault : faults()) {
     Session session(true);
@@ -206,7 +206,7 @@ TEST(Clocks, AtRestNothingMovesEver) {
   }
 }
 
-TEST(Clocks, ALeapIsLeftOutAndNothingMoves) {
+TEST(Clocks, ATimeJumpIsSkippedAndNothingMoves) {
   for (const double stopped : {0.4, 3.0, 7.0, 60.0}) {
     for (const bool holds : {true, false}) {
       Session session(holds);
@@ -221,7 +221,7 @@ TEST(Clocks, ALeapIsLeftOutAndNothingMoves) {
       EXPECT_EQ(session.time_skipped > 0.0, stopped > 6.0) << stopped;
       EXPECT_EQ(session.stepped, 0.0);
       EXPECT_LT(std::abs(session.stamp_lag()), 0.05);
-      // It follows again, at a bounded speed where it was away for long.
+      // The hand is followed again, at a bounded speed if it was lost for long.
       session.moves = 1.0;
       session.run(2.0);
       EXPECT_LT((session.hand() - session.true_hand()).norm(), 0.02);
@@ -243,7 +243,7 @@ TEST(Senders, AStampThatIsOffMovesNothing) {
   }
 }
 
-/// Half a metre, told late or anew while the box is held: the hand comes there at a bounded speed.
+/// Moved by half a metre, reported late or repeatedly while the box is held: the hand follows at a bounded speed.
 TEST(Senders, ATrackerThatIsMovedPullsNoHarderThanAHandThatIsFoundAgain) {
   Session session(true);
   session.run(3.0);
@@ -269,15 +269,15 @@ TEST(Senders, ATrackerThatIsMovedPullsNoHarderThanAHandThatIsFoundAgain) {
 
 TEST(Senders, TheFirstIsFollowedUntilItIsSilent) {
   motion::SenderChoice choice(0.5);
-  EXPECT_TRUE(choice.offers("/a", 0.0));
+  EXPECT_TRUE(choice.accepts("/a", 0.0));
   for (double t = 0.01; t < 2.0; t += 0.01) {
-    EXPECT_TRUE(choice.offers("/a", t));
-    EXPECT_FALSE(choice.offers("/b", t));
+    EXPECT_TRUE(choice.accepts("/a", t));
+    EXPECT_FALSE(choice.accepts("/b", t));
   }
-  EXPECT_FALSE(choice.offers("/b", 2.4));
-  EXPECT_TRUE(choice.offers("/b", 2.6));
+  EXPECT_FALSE(choice.accepts("/b", 2.4));
+  EXPECT_TRUE(choice.accepts("/b", 2.6));
   EXPECT_EQ(choice.name(), "/b");
-  EXPECT_FALSE(choice.offers("/a", 2.7));
+  EXPECT_FALSE(choice.accepts("/a", 2.7));
 }
 
 }  // namespace

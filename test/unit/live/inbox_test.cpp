@@ -5,8 +5,8 @@
 namespace spring_workbench::live {
 namespace {
 
-/// As a loop that stands for a while leaves it: those that came first stay, in order, and what was taken makes room.
-TEST(Inbox, HoldsNoMoreThanItMay) {
+/// During a stall of the loop the first items are kept, in order; taking them makes room.
+TEST(Inbox, HoldsNoMoreThanItsCapacity) {
   Inbox<int> inbox(3);
   int came = 0, refused = 0;
   const auto come = [&](int number) {

@@ -93,9 +93,9 @@ TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
   }
 }
 
-/// Stations of one tracker measure in turn, one in a cycle. Each pose of the first hand is displayed in its own cycle,
-/// whatever the other stations do, and committed when the next one of each hand is there: with one hand after as many
-/// cycles as there are stations, with a second one, whose turn is next, after one more.
+/// Stations of one tracker measure in turn, one per cycle. Each pose of the first hand is displayed in its own cycle,
+/// whatever the other stations do, and committed once the next pose of each hand has arrived: with one hand after as
+/// many cycles as there are stations, with a second hand, whose turn is next, after one more.
 TEST(LookAhead, StationsInTurnDelayTheDisplayByNothingAndTheCommittedByOneTurn) {
   for (const auto& [stations, hands] : {std::pair(1, 1), {2, 1}, {2, 2}, {4, 1}, {4, 2}}) {
     Bench bench;
@@ -128,7 +128,7 @@ TEST(LookAhead, StationsInTurnDelayTheDisplayByNothingAndTheCommittedByOneTurn) 
   }
 }
 
-/// Hands whose epochs differ have stamps that differ by rounding: time goes on all the same.
+/// Hands with different epochs have stamps that differ by rounding; time advances nevertheless.
 TEST(LookAhead, TwoHandsThatDifferByARoundingErrorGoOnTogether) {
   Bench bench;
   for (int k = 0; k < 60; ++k) {
@@ -145,9 +145,9 @@ TEST(LookAhead, TwoHandsThatDifferByARoundingErrorGoOnTogether) {
   EXPECT_NEAR(bench.runner.locked([](const auto& s) { return s.time(); }), interval * 58, 1e-9);
 }
 
-/// What was shown for the newest sample is off by what its velocity was off by; further ahead by much more; and by
-/// nothing where the hand goes straight on.
-TEST(LookAhead, ErrorsAreThoseOfWhatWasShown) {
+/// The display at the newest sample has the error of its velocity; further ahead the error is much larger; it vanishes
+/// if the hand continues straight.
+TEST(LookAhead, ErrorsAreThoseOfTheDisplayedPoses) {
   double largest[2];
   for (const int further : {0, 1}) {
     Bench bench;
@@ -184,7 +184,7 @@ TEST(LookAhead, WhatIsShownDoesNotGoBack) {
   }
 }
 
-/// An object is removed while there is no time to look ahead: the copy has it still, and does not fit the scene.
+/// An object is removed while there is no time to look ahead: the copy still contains it and does not match the scene.
 TEST(LookAhead, WhatHasNotFollowedAnEditIsNotShown) {
   simulation::Simulation committed(two_boxes(), {});
   hand_input::Feed feed(committed, hand_input::InputSettings());
@@ -208,7 +208,7 @@ Replayer replayer_of_two_boxes() {
   return {[](const std::string&) { return two_boxes(); }, {}};
 }
 
-/// Any change that a service, a panel or another time can make.
+/// A random change as by a service, a panel or a time jump.
 Command random_command(std::mt19937& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -224,12 +224,13 @@ Command random_command(std::mt19937& random) {
   if (random() % 3 > 0) command.hand = random() % 2;
   command.tool = every_tool[random() % 5];
   command.on = random() % 2 == 0;
-  if (random() % 2 == 0) command.of_fork.dofs = rod::ForkDofs{random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
-  if (random() % 2 == 0) command.of_fork.stretch_stiffness = uniform(100.0, 1000.0);
-  if (random() % 2 == 0) command.of_fork.torsion_stiffness = uniform(0.1, 10.0);
-  if (random() % 3 == 0) command.of_fork.damping_ratio = rod::PerDof{0.2, 0.2, 0.2};
-  if (random() % 4 == 0) command.of_dynamics.step = uniform(0.001, 0.004);
-  if (random() % 4 == 0) command.of_dynamics.integrator = dynamics::IntegratorKind::rk4;
+  if (random() % 2 == 0)
+    command.fork_change.dofs = rod::ForkDofs{random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
+  if (random() % 2 == 0) command.fork_change.stretch_stiffness = uniform(100.0, 1000.0);
+  if (random() % 2 == 0) command.fork_change.torsion_stiffness = uniform(0.1, 10.0);
+  if (random() % 3 == 0) command.fork_change.damping_ratio = rod::PerDof{0.2, 0.2, 0.2};
+  if (random() % 4 == 0) command.dynamics_change.step = uniform(0.001, 0.004);
+  if (random() % 4 == 0) command.dynamics_change.integrator = dynamics::IntegratorKind::rk4;
   return command;
 }
 
@@ -243,15 +244,15 @@ void change_at_random(SimulationRunner& runner, std::mt19937& random) {
   }
 }
 
-/// A machine's force sensor measured this at `t`, on what the first hand holds.
+/// A measurement of a machine's force sensor at `t` on the object of the first hand.
 StylusWrench wrench_at(double t) {
   const Wrench pull{{3.0 * std::sin(9.0 * t), 1.0, 5.0}, {0.0, 0.02, 0.01}};
   const auto axes = static_cast<motion::ExternalWrench::Axes>(std::llround(t / interval) % 2);
   return {std::llround(1e9 * t), {0.0, pull, axes}};
 }
 
-/// A run with changes at random and a sensor whose messages are late at random or do not come, the state noted after
-/// it.
+/// The journal of a run with random changes and a sensor whose messages are randomly late or missing; also returns the
+/// hash of the final state.
 std::vector<Entry> random_journal(unsigned seed, std::uint64_t& hash) {
   Bench bench(2 + static_cast<int>(seed % 3));
   std::mt19937 random(seed);
@@ -276,7 +277,7 @@ std::vector<Entry> random_journal(unsigned seed, std::uint64_t& hash) {
   return journal;
 }
 
-/// Each change is made again, from its command as words, at its time, and leads to the same bits; so does all else.
+/// Each change is repeated at its time from its encoded command and leads to identical bits, like everything else.
 TEST(Journal, ReplayedComesToTheSameBits) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     std::uint64_t hash = 0;
@@ -305,7 +306,7 @@ TEST(Journal, ReplayedComesToTheSameBits) {
   }
 }
 
-/// It acts at its stamp, whenever it comes before that time is committed.
+/// It acts at its stamp if it arrives before that time is committed.
 TEST(ExternalWrench, ActsAtItsStamp) {
   RigidTransform X_WO[3];
   for (const int late : {0, 1, 2}) {  // 2: there is none
@@ -322,13 +323,13 @@ TEST(ExternalWrench, ActsAtItsStamp) {
   EXPECT_NE(X_WO[0].matrix(), X_WO[2].matrix());
 }
 
-/// A change whose command says something else is told, and the run goes on from the state that was recorded.
-TEST(Journal, AChangeThatLeadsElsewhereIsCountedAndTold) {
+/// A change whose command has a different result is reported, and the run continues from the recorded state.
+TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
   Bench bench;
   bench.runner.keep_journal(true);
   Command softer;
   softer.kind = Command::Kind::settings;
-  softer.of_fork.stretch_stiffness = 300.0;
+  softer.fork_change.stretch_stiffness = 300.0;
   for (int k = 0; k < 50; ++k) {
     bench.commit(bench.sample(k, false), interval * k);
     if (k == 30) bench.runner.change("softer", softer);
@@ -337,7 +338,7 @@ TEST(Journal, AChangeThatLeadsElsewhereIsCountedAndTold) {
   Replayer replayer = replayer_of_two_boxes();
   for (Entry& entry : bench.runner.take_journal()) {
     auto* change = std::get_if<Change>(&entry.what);
-    if (change != nullptr && change->what == "softer") change->command.of_fork.stretch_stiffness = 300.1;
+    if (change != nullptr && change->what == "softer") change->command.fork_change.stretch_stiffness = 300.1;
     replayer.play(entry, [](auto&, auto&) {});
   }
   ASSERT_EQ(replayer.changes().mismatches.size(), 1u);
@@ -348,9 +349,9 @@ TEST(Journal, AChangeThatLeadsElsewhereIsCountedAndTold) {
 TEST(Journal, WordsThatAreNoCommandAreRefused) {
   Command softer;
   softer.kind = Command::Kind::settings;
-  softer.of_fork.stretch_stiffness = 300.0;
+  softer.fork_change.stretch_stiffness = 300.0;
   std::vector<std::uint64_t> words = softer.words();
-  EXPECT_EQ(Command::from(words).of_fork.stretch_stiffness, 300.0);
+  EXPECT_EQ(Command::from(words).fork_change.stretch_stiffness, 300.0);
   words.push_back(0);
   EXPECT_THROW(Command::from(words), validation::InputError);
   words.resize(words.size() - 2);

@@ -20,10 +20,10 @@ namespace {
 
 std::int64_t stamp_of(const SimulationRunner& runner) { return runner.committed(always)->at.stamp; }
 
-TEST(Pace, IsBehindWhereWhatIsTakenIsNotDoneSoon) {
+TEST(Pace, IsBehindIfAcceptedSamplesAreNotSimulatedSoon) {
   Pace quick, slow;
   for (int k = 0; k < 50; ++k) {
-    quick.committed(0.01, 0.001, 4.0);  // a process that stood: 0.4 s of work
+    quick.committed(0.01, 0.001, 4.0);  // a process that was stopped: 0.4 s of work
     slow.committed(0.01, 0.1, 0.45);    // ten times slower than the hand, and not far behind
   }
   EXPECT_FALSE(quick.is_behind());
@@ -36,16 +36,16 @@ TEST(Pace, IsBehindWhereWhatIsTakenIsNotDoneSoon) {
   EXPECT_TRUE(slow.is_behind());
   slow.caught_up();
   EXPECT_FALSE(slow.is_behind());
-  Pace turns;  // what is quick again is known to be, after a while
+  Pace turns;  // after a while it is known to be fast again
   for (int k = 0; k < 50; ++k) turns.committed(0.01, 0.1, 0.0);
   for (int k = 0; k < 50; ++k) turns.committed(0.01, 0.001, 0.0);
   EXPECT_TRUE(turns.can_look_ahead(0.5));
 }
 
-/// With three seconds of samples to be simulated, and more coming, what is shown is far ahead of the committed state
-/// and takes as long as its way there; the committed state catches up all the same, and is shown at least ten times a
+/// With a backlog of three seconds of samples and more arriving, the display is far ahead of the committed state and
+/// takes correspondingly long; the committed state still catches up, and the display is updated at least ten times a
 /// second.
-TEST(ShowTimes, ALongWayAheadDoesNotKeepFromCatchingUp) {
+TEST(ShowTimes, LookingFarAheadDoesNotPreventCatchingUp) {
   for (const double period : {1e-3, 0.01}) {
     for (const double cost : {0.05, 0.2, 0.4}) {  // [s] for simulating one second
       const double step = 0.005;                  // [s] between samples
@@ -66,7 +66,7 @@ TEST(ShowTimes, ALongWayAheadDoesNotKeepFromCatchingUp) {
   }
 }
 
-/// A thread that takes it again and again lets another have its turn.
+/// A thread that locks repeatedly lets another have its turn.
 TEST(FairMutex, NobodyWaitsForMoreThanOneTurn) {
   FairMutex mutex;
   std::atomic<bool> stop{false};
@@ -100,8 +100,8 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
   const auto set = [&](dynamics::IntegratorKind kind, double step) {
     Command command;
     command.kind = Command::Kind::settings;
-    command.of_dynamics.integrator = kind;
-    command.of_dynamics.step = step;
+    command.dynamics_change.integrator = kind;
+    command.dynamics_change.step = step;
     runner.change("set_integrator", command);
   };
   const auto begin = std::chrono::steady_clock::now();
@@ -144,7 +144,7 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
   EXPECT_GE(behind, 3);
   EXPECT_LE(longest, 3);
   set(dynamics::IntegratorKind::exponential, 0.01);
-  // The hand is caught up with.
+  // It catches up with the hand.
   const auto lag = [&] { return now() - 1e-9 * static_cast<double>(stamp_of(runner) - 1'000'000'000); };
   while (now() < 90.0 && !(lag() < 0.1)) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_LT(lag(), 1.0);
@@ -154,7 +154,7 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
   EXPECT_GT(time_skipped, 0.0);
 }
 
-/// A scene of many objects is made beside the cycles, and swapped in between two of them.
+/// A scene with many objects is built concurrently with the cycles and swapped in between two of them.
 TEST(Pace, AScenesMakingKeepsNoCycleWaiting) {
   std::vector<scene::Body> many;
   for (int k = 0; k < 10000; ++k) {

@@ -34,8 +34,8 @@ void expect_same(const SharedStates& states, const simulation::Simulation& simul
   }
 }
 
-/// Whatever is held, dropped, edited, reset or restored: a value is as the simulation was, and shares the parts that
-/// stayed as they were. The same holds for the copy that is shown ahead.
+/// Whatever is held, dropped, edited, reset or restored, a value equals the simulation's state at that moment and
+/// shares the unchanged parts. The same holds for the displayed copy.
 TEST(SharedStates, AreThoseOfTheSimulationAndShareWhatStays) {
   for (const scene::ContactMode mode :
        {scene::ContactMode::none, scene::ContactMode::stop, scene::ContactMode::dynamic}) {

@@ -17,7 +17,7 @@ scene::Scene boxes(scene::ContactMode mode) {
   return scene_of({box("held", size, 1.0, {0.0, 0.0, 0.02}), box("other", size, 0.5, {0.12, 0.01, 0.02})}, mode);
 }
 
-/// A hand that carries the box to and fro over the bench, against the other one and down on it.
+/// A hand that carries the box back and forth over the bench, against the other box and down onto it.
 HandEvents hand(int k) {
   HandEvents events;
   const double t = interval * k;
@@ -32,7 +32,7 @@ HandEvents hand(int k) {
   return events;
 }
 
-/// All that a node says of it.
+/// Everything that a node publishes about it.
 template <typename Objects>
 std::vector<double> readings(double time, const scene::Scene& scene, const Objects& objects,
                              const tools::ToolState& tool, const std::vector<contact::ContactState>& contacts) {

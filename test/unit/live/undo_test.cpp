@@ -1,4 +1,4 @@
-// Edits and resets of a live run, and their way back.
+// Edits and resets of a live run, and undo.
 #include <gtest/gtest.h>
 
 #include "spring_workbench/live/simulation_runner.h"
@@ -31,7 +31,7 @@ struct Bench {
   int k = 0;
   Shown shown;
 
-  void go_on(int samples) {
+  void continue_with(int samples) {
     for (const int end = k + samples; k < end; ++k) {
       const double t = 0.01 * k;
       HandEvents events;
@@ -68,7 +68,7 @@ struct Bench {
 
 TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
   Bench bench;
-  bench.go_on(120);
+  bench.continue_with(120);
   ASSERT_TRUE(bench.objects()[0].held);
   const std::vector<bodies::BodyState> lifted = bench.objects();
   bench.edit(removal("held"));
@@ -76,7 +76,7 @@ TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
   EXPECT_EQ(bench.placements(), 1u);
   bench.edit(removal("other"));
   EXPECT_EQ(bench.placements(), 0u);
-  bench.go_on(30);
+  bench.continue_with(30);
   const double now = bench.time();
   EXPECT_EQ(bench.runner.undo(), "remove: other");
   EXPECT_EQ(bench.objects().size(), 1u);
@@ -86,7 +86,7 @@ TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
   EXPECT_EQ(bench.placements(), 1u);
   for (int i : {0, 1}) EXPECT_EQ(bench.objects()[i].X_WO.matrix(), lifted[i].X_WO.matrix());
   EXPECT_FALSE(bench.objects()[0].held);
-  bench.go_on(100);
+  bench.continue_with(100);
   EXPECT_GT(bench.time(), now);
   EXPECT_NEAR(bench.objects()[0].X_WO.translation().z(), 0.05, 1e-4);  // has fallen
   EXPECT_EQ(bench.shown.view.objects.size(), 2u);
@@ -95,16 +95,16 @@ TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
 
 TEST(Undo, TakesAResetBack) {
   Bench bench;
-  bench.go_on(120);
+  bench.continue_with(120);
   const RigidTransform lifted = bench.objects()[0].X_WO;
   bench.runner.restart();
   EXPECT_EQ(bench.objects()[0].X_WO.translation().z(), 0.05);
-  bench.go_on(5);
+  bench.continue_with(5);
   EXPECT_EQ(bench.runner.undo(), "reset");
   EXPECT_EQ(bench.objects()[0].X_WO.matrix(), lifted.matrix());
 }
 
-TEST(Undo, TakesBackAsManyEditsAsItSays) {
+TEST(Undo, UndoesTheDocumentedNumberOfEdits) {
   Bench bench;
   for (int i = 1; i <= 25; ++i) bench.edit(new_mass(i));
   for (int i = 24; i >= 5; --i) {
@@ -123,24 +123,24 @@ TEST(Undo, TakesBackAsManyEditsAsItSays) {
 TEST(Undo, AndEditsAreReplayedFromTheJournalBitByBit) {
   Bench bench;
   std::vector<Entry> journal;
-  const auto go_on = [&](int samples) {
-    bench.go_on(samples);
+  const auto continue_with = [&](int samples) {
+    bench.continue_with(samples);
     bench.runner.note_state();
     for (Entry& entry : bench.runner.take_journal()) journal.push_back(entry);
   };
-  go_on(20);
+  continue_with(20);
   bench.runner.keep_journal(true);
-  go_on(80);
+  continue_with(80);
   bench.edit(new_mass(2.5));
-  go_on(80);
+  continue_with(80);
   bench.edit(removal("other"));
-  go_on(150);
+  continue_with(150);
   bench.runner.restart();
-  go_on(60);
+  continue_with(60);
   bench.runner.undo();
-  go_on(90);
+  continue_with(90);
   bench.runner.undo();
-  go_on(200);
+  continue_with(200);
   Replayer replayer([](const std::string&) { return two_cubes(); }, simulation::SimulationSettings());
   for (const Entry& entry : journal) replayer.play(entry, [](auto&, auto&) {});
   EXPECT_TRUE(replayer.changes().mismatches.empty());
@@ -150,16 +150,16 @@ TEST(Undo, AndEditsAreReplayedFromTheJournalBitByBit) {
   EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
 }
 
-/// A node that is started again has what was edited.
+/// A restarted node has the edits.
 TEST(Undo, AResumedSceneIsTheEditedOne) {
   Bench bench;
-  bench.go_on(120);
+  bench.continue_with(120);
   bench.edit(removal("other"));
   bench.edit(new_mass(2.5));
   const auto state = bench.runner.locked([](const auto& s) { return s.save(); });
   Bench another;
   another.runner.resume(two_cubes(), state);
-  another.go_on(3);
+  another.continue_with(3);
   ASSERT_EQ(another.objects().size(), 1u);
   EXPECT_EQ(another.mass(), 2.5);
 }

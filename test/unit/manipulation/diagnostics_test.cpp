@@ -5,7 +5,7 @@
 namespace spring_workbench::manipulation::diagnostics_test {
 namespace {
 
-/// What is counted is said each time; the level is raised where it has grown since the last time.
+/// Counters are reported each time; the level is raised if they have increased since the last report.
 TEST(ManipulationDiagnostics, TellThatTheLoopWaitsForMessages) {
   ManipulationDiagnostics diagnostics("node", 0.5);
   LoopStatistics loop;

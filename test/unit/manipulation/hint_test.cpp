@@ -7,7 +7,7 @@
 namespace spring_workbench::manipulation::hint_test {
 namespace {
 
-/// What may be wrong, and the words that the hint must have.
+/// Possible causes, and words that the hint must contain.
 TEST(HintForSilence, NamesWhatToLookAt) {
   TrackerInput tracker;
   InputStatistics& input = tracker.input;
@@ -34,7 +34,7 @@ TEST(HintForSilence, NamesWhatToLookAt) {
     expect(hint(), "by 37 s: are the clocks of two hosts apart");
   }
   input.rejected = {{"not finite", 90}, {"too old", 10}};
-  expect(hint(), "most of them as: not finite");
+  expect(hint(), "most often as: not finite");
   tracker.hand.stream.samples = 1;
   EXPECT_EQ(hint(), "");
 }

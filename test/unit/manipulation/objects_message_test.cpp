@@ -24,7 +24,7 @@ scene::Scene row(std::size_t count, const std::string& name) {
   return scene_of(boxes, scene::ContactMode::none);
 }
 
-/// A simulation to which anything may happen.
+/// A simulation with random events.
 class Story {
  public:
   explicit Story(unsigned seed) : random_(seed) {
@@ -70,7 +70,7 @@ class Story {
   bool pressed_ = false;
 };
 
-ros::SerializedMessage made_anew(const std_msgs::Header& header, const std::vector<bodies::BodyState>& objects) {
+ros::SerializedMessage serialised_anew(const std_msgs::Header& header, const std::vector<bodies::BodyState>& objects) {
   ObjectStates message;
   message.header = header;
   for (const bodies::BodyState& object : objects) {
@@ -92,9 +92,9 @@ std::vector<std::uint8_t> bytes_of(const ros::SerializedMessage& message) {
   return {message.buf.get(), message.buf.get() + message.num_bytes};
 }
 
-/// Objects move, are added, removed, and named otherwise; the frame of the header has another name. Messages that
-/// roscpp has not sent yet stay as they are, whatever is written after them.
-TEST(ObjectsMessage, HasTheBytesOfOneThatIsMadeAnew) {
+/// Objects move, are added, removed and renamed, and the frame of the header changes. Messages that roscpp has not sent
+/// yet stay unchanged, whatever is written later.
+TEST(ObjectsMessage, HasTheBytesOfAFreshlySerialisedMessage) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     Story story(seed);
     ObjectsMessage message;
@@ -108,7 +108,7 @@ TEST(ObjectsMessage, HasTheBytesOfOneThatIsMadeAnew) {
       header.stamp.fromSec(0.01 * k);
       message.write(header, states);
       const ros::SerializedMessage sent = ros::serialization::serializeMessage(message);
-      const ros::SerializedMessage must = made_anew(header, story.simulation().objects());
+      const ros::SerializedMessage must = serialised_anew(header, story.simulation().objects());
       ASSERT_EQ(bytes_of(sent), bytes_of(must)) << "seed " << seed << ", message " << k;
       EXPECT_EQ(sent.message_start - sent.buf.get(), must.message_start - must.buf.get());
       header.seq = k;  // as roscpp writes it

@@ -47,7 +47,7 @@ class MarkersOfALift : public testing::Test {
 
   simulation::Simulation simulation_{scene::load_scene(test_support::checkout("scenes/single_box.urdf")),
                                      simulation::SimulationSettings()};
-  MarkerBuilder builder_{"rod", fork_mesh::usual_diameter, 2.0};
+  MarkerBuilder builder_{"rod", fork_mesh::default_diameter, 2.0};
   double t_ = 0.0;
   bool pressed_ = false;
 };
@@ -82,7 +82,7 @@ TEST_F(MarkersOfALift, EveryMarkerIsFiniteAndHasAnIdOfItsOwn) {
   }
 }
 
-TEST_F(MarkersOfALift, WhatIsGoneIsDeletedOnceAndByName) {
+TEST_F(MarkersOfALift, RemovedMarkersAreDeletedOnceAndByName) {
   Keys shown;
   bool force_was_drawn = false;
   for (double t = 0.5; t < 4.0; t += 0.1) {
@@ -102,7 +102,7 @@ TEST_F(MarkersOfALift, WhatIsGoneIsDeletedOnceAndByName) {
   EXPECT_EQ(shown.count({"force", 0}), 0u);
 }
 
-/// What is kept from one message to the next is as if it were drawn anew.
+/// Reused parts of the last message equal newly drawn ones.
 TEST_F(MarkersOfALift, WhatWasDrawnBeforeChangesNothing) {
   const auto scene = std::make_shared<const scene::Scene>(simulation_.scene());
   live::SharedStates objects;
@@ -115,7 +115,7 @@ TEST_F(MarkersOfALift, WhatWasDrawnBeforeChangesNothing) {
     const auto deletes = [](const Marker& marker) { return marker.action == Marker::DELETE; };
     markers.markers.erase(std::remove_if(markers.markers.begin(), markers.markers.end(), deletes),
                           markers.markers.end());
-    EXPECT_EQ(markers, MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view, std_msgs::Header())) << t;
+    EXPECT_EQ(markers, MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view, std_msgs::Header())) << t;
     shadows.insert(static_cast<std::size_t>(std::count_if(markers.markers.begin(), markers.markers.end(),
                                                           [](const Marker& m) { return m.ns == "shadow"; })));
   }
@@ -152,7 +152,7 @@ TEST_F(MarkersOfALift, ARaisedBoxThrowsItsOwnOutlineOnTheBench) {
   for (const auto& p : shadow->points) EXPECT_NEAR(p.z, 0.0, 2e-3);
 }
 
-TEST_F(MarkersOfALift, LoadIsColouredAndToldInVirtualKilograms) {
+TEST_F(MarkersOfALift, LoadIsColouredAndWrittenInVirtualKilograms) {
   go_to(1.0);
   const auto unloaded = find(build(), "fork", 0)->color;
   EXPECT_EQ(find(build(), "readout", 0), nullptr);
@@ -167,7 +167,7 @@ TEST_F(MarkersOfALift, LoadIsColouredAndToldInVirtualKilograms) {
 }
 
 /// Its colour is its own while it is held, and lit while it would be grasped.
-TEST_F(MarkersOfALift, WhatTheTipIsInIsTranslucent) {
+TEST_F(MarkersOfALift, TheObjectThatTheTipIsInIsTranslucent) {
   const auto color = [&] {
     const MarkerArray markers = build();
     return find(markers, "box", 0)->color;
@@ -188,7 +188,7 @@ TEST_F(MarkersOfALift, WhatTheTipIsInIsTranslucent) {
   EXPECT_EQ(color().a, 1.0f);
 }
 
-/// The probe holds nothing, and tells the force with which it presses.
+/// The probe holds nothing, but shows the force with which it presses.
 TEST_F(MarkersOfALift, TheProbeHasAReadoutWhileItTouches) {
   simulation_.select_tool(tools::Tool::spring_probe);
   go_to(0.2);
@@ -203,7 +203,7 @@ TEST_F(MarkersOfALift, TheProbeHasAReadoutWhileItTouches) {
 }
 
 /// The second line: the scale's mean, the force along and across the tool and its angle; of a probe, the material.
-TEST_F(MarkersOfALift, ReadingsAreToldBelowTheLoad) {
+TEST_F(MarkersOfALift, ReadingsAreWrittenBelowTheLoad) {
   go_to(8.0);
   live::View view = view_of(simulation_);
   tools::ToolState& tool = view.tools[0];
@@ -232,7 +232,8 @@ TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
     go_to(t);
     const tools::ToolState tool = simulation_.fork();
     const Vector3d point =
-        tool.X_WE * Vector3d(0.0, 0.0, fork_mesh::ForkLook().prong_length * fork_mesh::usual_diameter * tool.length);
+        tool.X_WE *
+        Vector3d(0.0, 0.0, fork_mesh::ForkAppearance().prong_length * fork_mesh::default_diameter * tool.length);
     double nearest = 1.0;
     const MarkerArray markers = build();
     for (const auto& p : find(markers, "fork", 1)->points) {
@@ -242,8 +243,8 @@ TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
   }
 }
 
-/// 0.1 to 30 vkg: by their logarithm, from the lightest on in another colour each, with a mark that tells the weight.
-TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPlace) {
+/// 0.1 to 30 vkg on a logarithmic scale: each object has a different colour and a label with its weight.
+TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPosition) {
   const scene::Scene scene = scene::load_scene(test_support::checkout("scenes/mini_world.urdf"));
   simulation::SimulationSettings settings;
   settings.grasp.calibrate = tools::Calibration::world;
@@ -258,7 +259,7 @@ TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPlace) {
     for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
     simulation.advance(4.0);
     const MarkerArray markers =
-        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
+        MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
     const auto color = find(markers, "fork", 0)->color;
     colors[body.mass_properties.mass] = Eigen::Vector3f(color.r, color.g, color.b).cast<double>();
     ASSERT_NE(find(markers, "legend load", 0), nullptr) << body.name;
@@ -285,7 +286,7 @@ TEST(Markers, AMeshIsSentByItsFile) {
   scene::Body& box = scene.bodies[*scene::find_body(scene, "box")];
   box.visual[0].geometry = std::make_shared<const geometry::TriangleMesh>(mesh);
   const MarkerArray markers =
-      MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0)
+      MarkerBuilder("rod", fork_mesh::default_diameter, 2.0)
           .build(view_of(simulation::Simulation(scene, simulation::SimulationSettings())), std_msgs::Header());
   const Marker* marker = find(markers, "box", 0);
   ASSERT_NE(marker, nullptr);
@@ -310,7 +311,7 @@ TEST(Markers, AMeshHasTheColoursOfItsFile) {
     shape.color_given = given;
     const simulation::Simulation simulation(scene, simulation::SimulationSettings());
     const MarkerArray markers =
-        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
+        MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
     const Marker* marker = find(markers, "box", 0);
     ASSERT_NE(marker, nullptr);
     EXPECT_EQ(marker->mesh_use_embedded_materials != 0, own) << uri << given;
@@ -357,7 +358,7 @@ TEST(Markers, OfManyObjectsEachIsItsOwnBody) {
   simulation.place(places);
   std::map<std::string, Marker> drawn;
   for (const Marker& marker :
-       MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view_of(simulation), std_msgs::Header()).markers) {
+       MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view_of(simulation), std_msgs::Header()).markers) {
     if (marker.ns.rfind("body ", 0) == 0) drawn[marker.ns] = marker;
   }
   ASSERT_EQ(drawn.size(), 1500u);

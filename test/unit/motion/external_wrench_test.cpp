@@ -64,8 +64,8 @@ TEST(WrenchTrack, OneThatComesTooLateActsAtOnceOrNotAtAll) {
   EXPECT_FALSE(track.present());
 }
 
-/// As where time was left out: what comes later counts.
-TEST(WrenchTrack, ALaterMessageReplacesWhatIsNotBeforeIt) {
+/// As after skipped time: later messages count.
+TEST(WrenchTrack, ALaterMessageReplacesPendingOnesThatAreNotEarlier) {
   WrenchTrack track(timeout);
   for (const double t : {1.0, 2.0, 3.0}) track.push(sample(t, t));
   track.push(sample(1.5, 7.0));
@@ -75,7 +75,7 @@ TEST(WrenchTrack, ALaterMessageReplacesWhatIsNotBeforeIt) {
   EXPECT_EQ(track.next_edge(1.5, same_time), 1.5 + timeout);
 }
 
-TEST(WrenchTrack, RefusesWhatNoSensorMeasuresAndStaysAsItWas) {
+TEST(WrenchTrack, RefusesImplausibleWrenchesAndIsUnchanged) {
   WrenchTrack track(timeout);
   track.push(sample(1.0, 3.0));
   const math::StateArchive::Words before = words(track);

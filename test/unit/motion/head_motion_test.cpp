@@ -11,7 +11,7 @@ namespace {
 
 constexpr double interval = 1.0 / 60.0, frame = 1.0 / 75.0;  // [s] of the tracker and of the pictures
 
-/// A head that goes and turns evenly.
+/// A head that moves and turns at constant rates.
 RigidTransform head_at(double t) {
   const Vector3d w(0.1, -0.2, 0.6), v(0.3, 0.1, -0.05);
   return make_transform(Quaterniond(math::exp_so3(Vector3d(t * w))), Vector3d(v * t));
@@ -32,8 +32,8 @@ TEST(HeadMotion, ShowsTheNewestSampleWithoutLatency) {
   }
 }
 
-/// The picture of any moment is of where an even motion is when it is seen, between samples, too: a sample that waits
-/// for the next picture is as old as it is.
+/// Every frame shows a steady motion at its pose at the time of visibility, also between samples: the age of a sample
+/// that waits for the next frame counts.
 TEST(HeadMotion, IsWhereAnEvenMotionWillBe) {
   for (const double latency : {0.01, 0.033, 0.06}) {
     HeadMotion motion;
@@ -41,7 +41,7 @@ TEST(HeadMotion, IsWhereAnEvenMotionWillBe) {
     for (int k = 0; k < 200; ++k) {
       const double now = frame * k, stamp = newest(now);
       const RigidTransform X = motion.follow(stamp, head_at(stamp), now, latency);
-      // It is not known how long a sample was under way: the time since the picture that showed it first counts.
+      // The latency of a sample is unknown, so the time since the first frame that showed it counts.
       const double first_seen = std::ceil(stamp / frame - 1e-9) * frame;
       if (k > 20) farthest = std::max(farthest, distance(X, head_at(stamp + latency + now - first_seen)));
     }

@@ -19,7 +19,7 @@ TEST(PoseFollower, StaysWithoutGoal) {
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(follower.advance(0.02).isApprox(start, 1e-15));
 }
 
-TEST(PoseFollower, ComesToEveryGoalNeverFasterThanAHandAndNeverAway) {
+TEST(PoseFollower, ReachesEveryGoalWithoutOvershootAndNeverFasterThanAHand) {
   test_support::Random random(7);
   PoseFollower follower(RigidTransform::Identity());
   RigidTransform last = RigidTransform::Identity();
@@ -40,7 +40,7 @@ TEST(PoseFollower, ComesToEveryGoalNeverFasterThanAHandAndNeverAway) {
   }
 }
 
-TEST(PoseFollower, NearAGoalTheWayDoesNotDependOnTheSteps) {
+TEST(PoseFollower, NearAGoalThePathDoesNotDependOnTheSteps) {
   const RigidTransform goal =
       make_transform(Quaterniond(math::exp_so3(Vector3d(0.01, 0.02, 0.0))), Vector3d(0.003, 0.0, 0.004));
   PoseFollower coarse(RigidTransform::Identity()), fine(RigidTransform::Identity());

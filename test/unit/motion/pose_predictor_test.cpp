@@ -14,7 +14,7 @@ PoseSample at(double t, const Vector3d& p, double turned) {
   return {t, make_transform(Quaterniond(math::exp_so3(Vector3d(0.0, turned, 0.0))), p)};
 }
 
-/// A line goes on as a line, and a parabola as a parabola.
+/// Lines and parabolas are continued exactly.
 TEST(PosePredictor, FollowsLineAndParabolaExactly) {
   const Vector3d v(0.3, -0.2, 0.1), a(2.0, 1.0, -3.0);
   const auto parabola = [&](double t) { return at(t, t * v + t * t * a, 0.4 * t + 0.9 * t * t); };
@@ -32,7 +32,7 @@ TEST(PosePredictor, FollowsLineAndParabolaExactly) {
   EXPECT_LT((curve.predict(0.65)->X.linear() - parabola(0.65).X.linear()).norm(), 1e-9);
 }
 
-/// A hand that turns a corner goes straight on once the corner is older than the window, and not before.
+/// After a corner, the prediction is straight once the corner is older than the window, and not before.
 TEST(PosePredictor, ForgetsWhatIsOlderThanItsWindow) {
   const auto corner = [](double t) { return at(t, Vector3d(t, std::max(0.0, t - 0.4), 0.0), 0.0); };
   PosePredictor predictor;

@@ -333,7 +333,7 @@ TEST(PoseTrack, DropoutHoldsTheLastPose) {
   }
 }
 
-TEST(PoseTrack, EqualAndBackwardStampsAreLeftOut) {
+TEST(PoseTrack, EqualAndBackwardStampsAreIgnored) {
   const auto samples = wandering_hand(13, 10);
   PoseTrack clean = track_of(samples);
   PoseTrack track(kNever);
@@ -351,7 +351,7 @@ TEST(PoseTrack, EqualAndBackwardStampsAreLeftOut) {
   }
 }
 
-TEST(PoseTrack, ItsLimitsAreWhereItSaysTheyAre) {
+TEST(PoseTrack, ItsLimitsAreAtTheDocumentedValues) {
   const RigidTransform here = RigidTransform::Identity();
   PoseTrack near(kNever);
   EXPECT_TRUE(near.push({0.0, here}));
@@ -372,7 +372,7 @@ TEST(PoseTrack, ItsLimitsAreWhereItSaysTheyAre) {
   EXPECT_TRUE(track.push({0.9e12, here}));
 }
 
-TEST(PoseTrack, RefusesWhatIsNotAPoseAndStaysAsItWas) {
+TEST(PoseTrack, RefusesInvalidPosesAndIsUnchanged) {
   const auto samples = wandering_hand(15, 3);
   PoseTrack track = track_of(samples);
   const double t_next = samples.back().t + 0.1;

@@ -14,7 +14,7 @@ constexpr std::int64_t ms = 1'000'000;
 
 std::int64_t nanoseconds(double s) { return std::llround(1e9 * s); }
 
-/// A sender at 125 Hz, whose messages come 1 to 4 ms late, and this host: clocks that can be set.
+/// A sender at 125 Hz, whose messages arrive 1 to 4 ms late, and this host, with clocks that can be set.
 struct Line {
   WallClock here;
   StreamClock clock{1.0};
@@ -28,7 +28,7 @@ struct Line {
     const StampResult result = clock.check(stamp, at);
     if (result == StampResult::fits) times.push_back(clock.local(stamp) - begin - sent);
   }
-  /// A message sent `late` before it comes [ns].
+  /// Sends a message that arrives `late` [ns] after it was stamped.
   StampResult send(std::int64_t late, std::int64_t ahead = 0) {
     const std::int64_t stamp = begin + steady - late + sender_set + ahead;
     const StampResult result = clock.check(stamp, now());
@@ -72,7 +72,7 @@ TEST(StreamClock, AStepOfThisHostAloneIsNotSeenInTheStream) {
   }
 }
 
-/// Known from the way that the messages come, to what their ways differ by.
+/// Detected from the arrival of the messages, up to the variation of their latency.
 TEST(StreamClock, AStepOfTheSenderAloneIsFoundWithinAFewMessages) {
   for (const double by : steps) {
     Line line;
@@ -85,7 +85,7 @@ TEST(StreamClock, AStepOfTheSenderAloneIsFoundWithinAFewMessages) {
   }
 }
 
-TEST(StreamClock, AMessageAloneMovesNothing) {
+TEST(StreamClock, ASingleMessageDoesNotMoveTheClock) {
   for (const double ahead : {0.9, -0.5, 5.0, -50.0, 0.2}) {
     Line line;
     line.run(50);
@@ -97,8 +97,8 @@ TEST(StreamClock, AMessageAloneMovesNothing) {
   }
 }
 
-/// Seven seconds in which this process did not look: all that was sent comes at once.
-TEST(StreamClock, WhatWaitedIsNoStep) {
+/// Seven seconds in which this process was stopped: all messages arrive at once.
+TEST(StreamClock, QueuedMessagesAreNoStep) {
   Line line;
   line.run(50);
   line.steady += 7000 * ms;

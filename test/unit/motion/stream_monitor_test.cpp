@@ -8,7 +8,7 @@
 namespace spring_workbench::motion::stream_monitor_test {
 namespace {
 
-TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
+TEST(StreamMonitor, ReportsRateJitterGapsAndAge) {
   std::mt19937 random(2);
   std::normal_distribution<double> noise(0.0, 1e-3);
   StreamMonitor monitor(0.5);

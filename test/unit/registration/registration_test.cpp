@@ -23,7 +23,7 @@ RigidTransform some_pose(unsigned seed) {
   return make_transform(Quaterniond::UnitRandom(), Vector3d::Random());
 }
 
-/// Touches of the places as the tracker, which stands at X_BT, sees them.
+/// Touches of the landmarks as measured by a tracker at X_BT.
 std::vector<Landmark> touched(const std::vector<Vector3d>& places, const RigidTransform& X_BT, double noise,
                               std::mt19937& random) {
   std::normal_distribution<double> error(0.0, 1.0);
@@ -45,29 +45,29 @@ TEST(Registration, ExactTouchesGiveTheExactPose) {
   }
 }
 
-TEST(Registration, ThePoseIsAsFarOffAsTheorySays) {
+TEST(Registration, ThePoseErrorAgreesWithTheory) {
   constexpr double sigma = 1e-3;  // [m]
   constexpr int runs = 4000;
   std::mt19937 random(2);
   const Vector3d middle = std::accumulate(kPlaces.begin(), kPlaces.end(), Vector3d(0, 0, 0)) / 5.0;
-  double position = 0.0, angle = 0.0, said_position = 0.0, said_angle = 0.0, said_touch = 0.0;
+  double position = 0.0, angle = 0.0, reported_position = 0.0, reported_angle = 0.0, reported_touch = 0.0;
   for (int run = 0; run < runs; ++run) {
     const RigidTransform X_BT = some_pose(static_cast<unsigned>(run));
     const Registration found = register_tracker(touched(kPlaces, X_BT, sigma, random), 0.02);
     const RigidTransform E = found.X_BT * X_BT.inverse();
     position += (E * middle - middle).squaredNorm() / runs;
     angle += math::log_so3(E.linear()).squaredNorm() / runs;
-    said_position += found.position_error * found.position_error / runs;
-    said_angle += found.angle_error * found.angle_error / runs;
-    said_touch += found.touch_error * found.touch_error / runs;
+    reported_position += found.position_error * found.position_error / runs;
+    reported_angle += found.angle_error * found.angle_error / runs;
+    reported_touch += found.touch_error * found.touch_error / runs;
   }
   std::cout << "1 mm touches of 5 landmarks: position off by " << 1e3 * std::sqrt(position) << " mm (said "
-            << 1e3 * std::sqrt(said_position) << "), angle by " << 1e3 * std::sqrt(angle) << " mrad (said "
-            << 1e3 * std::sqrt(said_angle) << ")\n";
+            << 1e3 * std::sqrt(reported_position) << "), angle by " << 1e3 * std::sqrt(angle) << " mrad (said "
+            << 1e3 * std::sqrt(reported_angle) << ")\n";
   EXPECT_NEAR(std::sqrt(position), sigma * std::sqrt(3.0 / 5.0), 0.03 * sigma);  // theory, in closed form
-  EXPECT_NEAR(std::sqrt(said_touch), sigma, 0.03 * sigma);
-  EXPECT_NEAR(std::sqrt(position / said_position), 1.0, 0.04);
-  EXPECT_NEAR(std::sqrt(angle / said_angle), 1.0, 0.04);
+  EXPECT_NEAR(std::sqrt(reported_touch), sigma, 0.03 * sigma);
+  EXPECT_NEAR(std::sqrt(position / reported_position), 1.0, 0.04);
+  EXPECT_NEAR(std::sqrt(angle / reported_angle), 1.0, 0.04);
 }
 
 TEST(Registration, EveryWrongOrderIsRefused) {
@@ -95,7 +95,7 @@ void expect_refused(const std::vector<Landmark>& landmarks, const std::string& w
   }
 }
 
-TEST(Registration, WhatCannotTellThePoseIsRefused) {
+TEST(Registration, LandmarksThatDoNotDetermineThePoseAreRefused) {
   std::mt19937 random(4);
   const RigidTransform X = some_pose(4);
   expect_refused(touched({{0, 0, 0}, {1, 0, 0}}, X, 0, random), "at least 3");

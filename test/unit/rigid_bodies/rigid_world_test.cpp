@@ -39,7 +39,7 @@ bool any_awake(const RigidWorld& world) {
   return std::any_of(near.begin(), near.end(), [&](std::size_t body) { return world.awake(body); });
 }
 
-/// The body on a spring without inertia: quasi-static, so that every answer is known.
+/// The body on a massless spring: quasi-static, so every result is known.
 struct OnSpring {
   double stiffness;  // N/m, all directions; it does not turn
   Vector3d hand;
@@ -112,7 +112,7 @@ scene::Scene on_hull(const Vector3d& size, double z) {
   return scene;
 }
 
-// Contacts ended where they were a millimetre deep: what was deeper fell through, and nobody was told.
+// Regression: contacts deeper than a millimetre used to be dropped, and the body fell through unreported.
 TEST(RigidWorld, WhatOverlapsAtTheStartComesOutAndCounts) {
   for (const double depth : {1.5e-3, 5e-3}) {
     const scene::Scene scene = on_hull({0.1, 0.1, 0.1}, -depth);
@@ -127,7 +127,7 @@ TEST(RigidWorld, WhatOverlapsAtTheStartComesOutAndCounts) {
   }
 }
 
-TEST(RigidWorld, WhatHasGoneThroughAThinPartComesBackWhereItWentIn) {
+TEST(RigidWorld, APointBeyondAThinPartReturnsToItsEntry) {
   const scene::Scene scene = on_hull({0.1, 0.1, 5e-4}, 1e-5);
   const std::unique_ptr<RigidWorld> world = make_rigid_world(scene);
   world->place(0, scene.bodies[0].X_WO, Twist(), true);

@@ -49,7 +49,7 @@ class Linear : public testing::Test {
     m.X_HE.translation() = tip.p_HE;
     return m;
   }
-  /// The wrench does to the tip what the generalised force does to the strain, wherever the rod is.
+  /// The power of the wrench on the tip equals that of the generalised force on the strain, for any strain.
   void expect_finite_power(const TipFit<double>& found, const TipMotion& m) const {
     Vector6d generalised = scaled(Eigen::Map<const Vector6d>(found.q));
     generalised.head<5>() *= L;
@@ -58,12 +58,12 @@ class Linear : public testing::Test {
     Vector6d::Map(f) = generalised;
     math::Three<double> force, moment;
     found.wrench(f, force, moment);
-    // No motion of the tip, however little the rod can do of it, asks for more than a thousand times as much strain.
+    // No motion of the tip, even a nearly impossible one, requires more than a thousand times as much strain.
     ASSERT_LE(scaled(rate).norm(), 1000.1 * std::hypot(m.v.norm() / L, m.w.norm()));
     ASSERT_NEAR(math::vector(force).dot(m.v) + math::vector(moment).dot(m.w), generalised.dot(rate),
                 1e-8 * (generalised.norm() * rate.norm() + 1e-3));
   }
-  /// Of a fit's tip from where it should be, over the length and in radians.
+  /// Distance of the fitted tip from the requested pose, relative to the length and in radians.
   static double away(const TipFit<double>& fit, const TipMotion& m) {
     return std::hypot((math::vector(fit.tip.p_HE) - m.X_HE.translation()).norm() / L,
                       math::log_so3(m.X_HE.linear().transpose() * math::matrix(fit.tip.R_HE, 0)).norm());
@@ -79,7 +79,8 @@ TEST_F(Linear, FindsTheStrainAndItsRateForTheTipsMotion) {
   }
 }
 
-/// A path of the tip about its handle, through it and twice as far as the rod is long, with turns beyond a half.
+/// A path of the tip around and through the handle, up to twice the rod's length away, with rotations beyond half a
+/// turn.
 struct RandomPath {
   std::array<Vector6d, 3> amplitude;
   explicit RandomPath(std::mt19937& random) {

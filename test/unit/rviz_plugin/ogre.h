@@ -15,7 +15,7 @@
 
 namespace spring_workbench::rviz_plugin {
 
-/// rviz' renderer on a virtual display of its own, which ends with this program. Skips without Xvfb.
+/// The renderer of rviz on a virtual display, which exits with this program. Skips if Xvfb is missing.
 class Ogre3d : public testing::Test {
  protected:
   using Counts = std::array<std::size_t, 4>;

@@ -92,7 +92,7 @@ class SceneObjectsTest : public Ogre3d {
   std::mt19937 random_{7};
 };
 
-TEST_F(SceneObjectsTest, NodesAreWhereTheMessageSays) {
+TEST_F(SceneObjectsTest, NodesAreAtThePosesOfTheMessage) {
   SceneObjects objects(manager_, parent_);
   const SceneDescription scene = scene_of_all();
   objects.describe(scene);

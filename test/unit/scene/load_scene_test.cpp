@@ -175,7 +175,7 @@ TEST_F(LoadScene, ARootWithoutMassIsFixed) {
   EXPECT_TRUE(warned(massless, "link 'table': the root has no mass"));
 }
 
-// ---- what real files get wrong
+// ---- common defects of real files
 
 TEST_F(LoadScene, ImpossibleInertiaIsReplacedByTheShapes) {
   for (const auto& [moments, reason] :
@@ -213,7 +213,7 @@ TEST_F(LoadScene, AnInertialThatUrdfdomDropsTakesNothingElseWithIt) {
               1e-12);
 }
 
-TEST_F(LoadScene, AnUnknownShapeIsToldAndTakesNothingElseWithIt) {
+TEST_F(LoadScene, AnUnknownShapeIsReportedAndSkippedAlone) {
   const Scene scene =
       load_part("<collision><geometry><capsule radius='1' length='1'/></geometry></collision><collision/>" + unit_box);
   EXPECT_TRUE(warned(scene, "link 'part': collision skipped: shape 'capsule'"));
@@ -257,8 +257,7 @@ TEST_F(LoadScene, WhatUrdfdomRefusesIsRefusedWithItsReasonAndNothingOnTheConsole
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 
-/// Of random joints those are loaded, and those alone, by which every link but one hangs on one joint and all are
-/// reached.
+/// Random joints are accepted if and only if they form a tree that contains all links.
 TEST_F(LoadScene, LinksMakeATreeOrAreRefused) {
   std::mt19937 random(1);
   int loaded = 0;
@@ -466,7 +465,7 @@ TEST_F(LoadScene, ColoursComeFromTheMaterials) {
 
 // ---- the YAML file
 
-TEST_F(LoadScene, TheYamlSaysWhatUrdfHasNoWordFor) {
+TEST_F(LoadScene, TheYamlAddsWhatUrdfCannotExpress) {
   const Scene scene = load_part(unit_box, R"(
 gravity: 1.62
 contact: none
@@ -577,8 +576,8 @@ std::string refusal_from(const std::string& path, const std::vector<std::string>
   return "(loaded)";
 }
 
-/// A FIFO is not waited for, a device not read, and no link leads out of the folders that are allowed.
-TEST_F(LoadScene, TheYamlBesideItIsHeldToTheSameFolders) {
+/// A FIFO does not block, a device is not read, and no link leads out of the allowed folders.
+TEST_F(LoadScene, TheYamlNextToItIsRestrictedToTheSameFolders) {
   folder_.write("allowed/scene.urdf", "<robot name='test'><link name='world'/></robot>");
   folder_.write("secret.yaml", "password: 1");
   const std::vector<std::string> roots = {folder_.path("allowed")};
@@ -622,13 +621,13 @@ TEST_F(LoadScene, ReadsFromTheFoldersAllowedAndFromPackagesAlone) {
   setenv("ROS_PACKAGE_PATH", folder_.path("").c_str(), 1);
   EXPECT_EQ(refusal_from(folder_.path("elsewhere/scene.urdf"), roots), "(loaded)");
   EXPECT_EQ(refusal_from("package://somewhere_else/scene.urdf", roots), "(loaded)");
-  // What is outside is not told: the same words whether it is there or not.
+  // Files outside are not disclosed: the message is the same whether they exist or not.
   for (const std::string name : {"nothing.urdf", "elsewhere"})
     EXPECT_TRUE(has(refusal_from("package://somewhere_else/../" + name, roots), "one of the folders"));
   setenv("ROS_PACKAGE_PATH", saved.c_str(), 1);
 }
 
-// Files made to eat time or memory.
+// Files crafted to exhaust time or memory.
 TEST_F(LoadScene, RefusesHostileFiles) {
   std::string deep = "<robot name='r'>";
   for (int i = 0; i < 1000000; ++i) deep += "<a>";
@@ -693,7 +692,7 @@ std::string collada(const std::string& nodes, const std::string& library = "", c
          "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 
-// Each takes its reader along, or never ends, where it is read like any other.
+// Each would crash or hang an unprotected reader.
 TEST_F(LoadScene, RefusesHostileMeshes) {
   const auto response = [&](const std::string& name) {
     folder_.write("scene.urdf", "<robot name='r'><link name='a'><collision><geometry><mesh filename='" + name +

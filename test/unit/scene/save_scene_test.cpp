@@ -1,4 +1,4 @@
-// A scene that is written is read again as it was.
+// A written scene is read back identically.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -96,7 +96,7 @@ TEST(SavedScenes, EveryShippedSceneIsReadAsItWas) {
   EXPECT_EQ(std::distance(files, fs::directory_iterator()), 2);  // nothing else was left
 }
 
-/// Every kind of shape, a body that is the root, one without mass, attitudes everywhere and at the poles.
+/// Every kind of shape, a root body, a massless body, random orientations and those at the poles.
 TEST(SavedScenes, SoIsOneWithEverythingInIt) {
   const test_support::TemporaryFolder folder;
   folder.write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");

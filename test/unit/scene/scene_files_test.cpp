@@ -1,4 +1,4 @@
-// Every scene that is shipped, and a collection of other people's URDFs; load_scene_test.cpp has each of its defects.
+// Every shipped scene, and a collection of third-party URDFs; load_scene_test.cpp covers each of their defects.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 const fs::path scenes = test_support::checkout("scenes");
 const fs::path collection = test_support::extra_data("data/urdf");
 
-/// Whatever is loaded can be simulated.
+/// Every loaded scene can be simulated.
 void expect_sound(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     SCOPED_TRACE(body.name);
@@ -149,7 +149,7 @@ TEST_F(Collection, WhatUrdfdomTakesLoadsAndWhatItRejectsIsRefused) {
   }
 }
 
-TEST_F(Collection, DefectsAreToldWithTheirLink) {
+TEST_F(Collection, DefectsAreReportedWithTheirLink) {
   const auto has_warning = [&](const std::string& file, const std::string& link, const std::string& what) {
     for (const std::string& warning : load_scene((collection / file).string()).warnings) {
       if (warning.find("'" + link + "'") != std::string::npos && warning.find(what) != std::string::npos) return true;

@@ -55,7 +55,7 @@ TEST(FastrakDevice, StreamsItsStationsInTurn) {
   }
 }
 
-/// The maker's device serves the switch of station 1 alone; one that emulates it may serve others.
+/// The original device supports only the switch of station 1; emulations may support others.
 TEST(FastrakDevice, TellsTheSwitchesThatItServes) {
   for (const std::vector<int>& switches : {std::vector<int>{1}, std::vector<int>{1, 2}}) {
     FastrakDevice device(std::vector<PlayedMotion>(2, circling_hand()), switches);
@@ -102,7 +102,7 @@ TEST(FastrakDevice, RefusesWithTheManualsCodes) {
 }
 
 /// Mode 1, the default: the switch stops and starts the stream, or asks for records. Mode 0: it only shows.
-TEST(FastrakDevice, TheSwitchActsUnlessItIsToldNotTo) {
+TEST(FastrakDevice, TheSwitchActsUnlessItIsDisabled) {
   const PlayedMotion pressing = test_support::pressing_hand();  // down in the second half of each second
   FastrakDevice device({pressing});
   EXPECT_EQ(device.measure(0.2), "");

@@ -1,4 +1,4 @@
-// A step takes no memory from the heap: its time must not depend on what else the process does there.
+// A step makes no heap allocations, so that its time does not depend on other threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using test_support::allocations;
 
-/// Of 100 calls of advance with the default fork on a hand sampled at 50 Hz, after 100 others.
+/// Allocations in 100 calls of advance with the default fork and a hand sampled at 50 Hz, after 100 warm-up calls.
 long allocations_of(scene::ContactMode contact, const SimulationSettings& settings) {
   Simulation simulation(scene_of({box("box", {0.1, 0.06, 0.04}, 1.0, {0.0, 0.0, 0.5})}, contact, 0.5), settings);
   simulation.push_button(0.0, true);

@@ -47,7 +47,7 @@ TEST_P(Breakaway, WhatIsTooHeavyIsNotLiftedAndWhatIsNotIs) {
   }
 }
 
-TEST_P(Breakaway, PressingHarderThanItLetsGo) {
+TEST_P(Breakaway, PressingBeyondTheLimitReleases) {
   Simulation simulation(one_box(1.0, GetParam()), breaking_at(30.0));
   push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.04));  // 2000 N/m: 80 N
   simulation.push_button(0.0, true);

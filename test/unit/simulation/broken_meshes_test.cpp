@@ -1,4 +1,4 @@
-// Meshes that are not the surface of a solid: contact with them is finite, bounded and ends.
+// Meshes that are not the surface of a solid: contact with them is finite and bounded, and ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -118,7 +118,7 @@ TEST(BrokenMeshes, ContactsAreFewAndFinite) {
   }
 }
 
-/// Pushed down onto the bench and along a wall, and lifted again: whatever it touches with, it comes along in the end.
+/// Pushed down onto the bench, along a wall, and lifted again: whatever touches, the object finally follows the hand.
 TEST(BrokenMeshes, HeldAndPressedTheyStayBoundedAndComeFree) {
   for (const Broken& broken : broken_meshes()) {
     for (const geometry::Geometry& wall : {geometry::Geometry(geometry::Box{Vector3d(0.1, 1.0, 1.0)}),

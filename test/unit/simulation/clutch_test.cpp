@@ -1,4 +1,4 @@
-// The hand is moved without its tool; the hand's lengths and time in the world.
+// The clutch, and the scales of the hand's lengths and time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ TEST(Clutch, WhatIsHeldRestsWhileTheHandGoesHalfAMetre) {
       simulation.advance(60.0 + 0.02 * i);
       ASSERT_LT((pose(simulation).matrix() - before.matrix()).cwiseAbs().maxCoeff(), 1e-9) << i;
     }
-    // Then it goes on from there: the object goes as far as the hand.
+    // Then it continues from there: the object moves as far as the hand.
     simulation.push_clutch(62.0, false);
     push_move(simulation, 62.02, 64.0, away, start);
     push_move(simulation, 64.02, 70.0, start, start);
@@ -49,7 +49,7 @@ TEST(Clutch, WhatIsHeldRestsWhileTheHandGoesHalfAMetre) {
   }
 }
 
-/// The tool turns in world as the hand does, whatever the hand's attitude was when it was joined to the tool again.
+/// The tool rotates in world like the hand, whatever the hand's orientation was when the clutch was released.
 TEST(Clutch, TheToolTurnsAsTheHandDoesInWorld) {
   Simulation simulation(one_box(), SimulationSettings());
   const auto turned = [&](double t0, const Quaterniond& from, const Vector3d& by) {
@@ -91,7 +91,7 @@ TEST(Clutch, OnAndOffAtFullSpeedNothingJumps) {
   }
 }
 
-/// What follows the clutch is the motion that a hand would make that had been there all the time.
+/// After the clutch, the motion is that of a hand that had been there all the time.
 TEST(Clutch, AfterItTheToolGoesAsOfAHandThatIsThere) {
   const Vector3d by(0.1, -0.2, 0.05);
   const auto run = [&](bool clutched) {
@@ -129,8 +129,8 @@ TEST(HandScale, TheToolGoesSoManyTimesAsFar) {
   }
 }
 
-/// A hand that grasps, lifts, uses its clutch, feels a machine and lets go over a bench, all by a clock that goes
-/// `rate` times as fast as the one with which this is told.
+/// A hand that grasps, lifts, uses its clutch, is subject to a machine's force and releases over a bench, with all
+/// times divided by `rate`.
 void live_through(double rate, Simulation& simulation) {
   for (int i = 0; i <= 200; ++i) {
     const double u = 0.01 * i, lift = 0.2 * u * u * (3.0 - 2.0 * u);
@@ -145,7 +145,7 @@ void live_through(double rate, Simulation& simulation) {
   simulation.advance(rate * 4.0);
 }
 
-/// The law of the time scale: what happens is what happens to a hand that is so much faster, bit by bit.
+/// The law of the time scale: the result is bit-identical to that of a hand that is faster by this factor.
 TEST(HandTimeScale, IsAHandThatIsSoMuchFaster) {
   for (const double scale : {0.1, 0.5, 1.0, 3.0}) {
     SimulationSettings slow, fast;
@@ -180,8 +180,8 @@ TEST(HandTimeScale, EdgesAndSamplesAreOfTheHand) {
   }
 }
 
-/// Froude's law: in a world that is λ times as large, as dense and under the same gravity, all goes √λ times as slowly.
-/// With both scales the hand moves, sees and feels the same.
+/// Froude's law: in a world that is λ times as large, with the same density and gravity, everything is slower by √λ.
+/// With both scales the hand experiences the same motion and forces.
 TEST(HandTimeScale, WithTheScalesOfLengthAndForceALargeWorldIsLikeASmallOne) {
   const auto run = [](double scale) {
     const Vector3d size(0.1, 0.06, 0.04), at(0.02, 0.0, 0.5);

@@ -56,7 +56,7 @@ TEST(DynamicContact, WhereNothingMovableIsNearItIsStop) {
   for (std::size_t i = 0; i < swept.size(); ++i) EXPECT_EQ(swept[i].matrix(), looked_after[i].matrix()) << i;
 }
 
-// One that is near and not in the way changes the engine, and nothing else.
+// A neighbour that is near but not in contact changes only the engine that is used.
 TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
   const auto dragged_past = [](double gap) {
     scene::Scene scene = scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
@@ -77,11 +77,11 @@ TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
     }
     return std::pair(sum.steps_among_movable, path);
   };
-  const auto [far_steps, far_way] = dragged_past(1.0);
-  const auto [near_steps, near_way] = dragged_past(1e-3);
+  const auto [far_steps, far_path] = dragged_past(1.0);
+  const auto [near_steps, near_path] = dragged_past(1e-3);
   EXPECT_EQ(far_steps, 0);
   EXPECT_GT(near_steps, 100);
-  for (std::size_t i = 0; i < far_way.size(); ++i) EXPECT_LT((far_way[i] - near_way[i]).norm(), 1e-4) << i;
+  for (std::size_t i = 0; i < far_path.size(); ++i) EXPECT_LT((far_path[i] - near_path[i]).norm(), 1e-4) << i;
 }
 
 // The drag scene: 5 kg pressed 0.1 m below the plane by the hand, dragged 0.5 m; with springs that do not bend into
@@ -123,7 +123,7 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
       const double pressed = 5000.0 * factor * 0.1 + 5.0 * g;
       const Vector3d p = s.objects()[0].X_WO.translation();
       const double lag = s.fork().X_WH.translation().x() - p.x();
-      // Friction acts below the tip: the slope spring gives way to its moment, the flush face does not let it.
+      // Friction acts below the tip: its moment would bend the slope spring, but the flush face prevents it.
       EXPECT_NEAR(lag, mu * pressed / (5000.0 * factor), 1e-3 * std::max(mu, 0.1) * 0.1) << factor << " " << mu;
       EXPECT_NEAR(p.z(), floor + 0.025, 1e-5) << factor << " " << mu;
     }

@@ -1,5 +1,5 @@
-// Contact mode `dynamic` at its extremes: whatever the masses and springs, what is held stays bounded, nothing is gone
-// through, and once the hand rests no energy comes from nowhere.
+// Limit cases of contact mode `dynamic`: for any masses and springs the held object stays bounded, nothing is
+// penetrated, and no energy is created while the hand rests.
 #include <gtest/gtest.h>
 
 #include <algorithm>

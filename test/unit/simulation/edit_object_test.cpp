@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, Edits, testing::Values(ContactMode::none, Contac
                          [](const auto& tested) { return validation::name_of(tested.param); });
 
 /// With `dynamic` what is held falls asleep later where something else has been set in motion.
-TEST_P(Edits, OfOtherObjectsLeaveWhatIsHeldAsItIs) {
+TEST_P(Edits, EditsOfOtherObjectsDoNotAffectTheHeldOne) {
   const std::vector<ObjectEdit> quiet = {new_mass("below", 3.0), new_friction("below", 0.1), removal("above")};
   const std::vector<ObjectEdit> moving = {addition("brick", at(Vector3d(-1.0, 0.0, 0.3))),
                                           move_to("below", at(Vector3d(1.0, 1.0, 0.05)))};

@@ -1,4 +1,4 @@
-// What a machine's force sensor measures acts on the held object; the twist of the tip, which a machine follows.
+// The wrench measured by a machine acts on the held object; the twist of the tip for a machine that follows it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST(ExternalWrench, DeflectsTheForkByItselfOverTheStiffness) {
       EXPECT_NEAR(from_start.x(), 0.5 / bend, 0.1 * 0.5 / bend) << what;
       EXPECT_NEAR(from_start.y(), -0.25 / bend, 0.1 * 0.5 / bend) << what;
       EXPECT_NEAR(std::abs(fork.torsion), 0.01 / torsion, 1e-4) << what;
-      // What the tool does is what is left: nothing moves.
+      // The tool exerts the remaining wrench: nothing moves.
       EXPECT_LT((fork.tip_wrench_W.force - Vector3d(-0.5, 0.25, 3.0)).norm(), 1e-4) << what;
     }
   }
@@ -79,7 +79,7 @@ TEST(ExternalWrench, OfTheWeightUpwardsBringsTheForkToItsRestLength) {
   }
 }
 
-/// On the bench, what the machine presses with is carried by the bench: it adds to what contact does.
+/// On the bench, the bench carries the force of the machine, in addition to the contact force.
 TEST(ExternalWrench, AddsToContact) {
   for (const scene::ContactMode mode : {scene::ContactMode::stop, scene::ContactMode::dynamic}) {
     Simulation simulation = holding(one_box(mode, g, 0.5 * size_z), {}, {0.0, 0.0, 0.5 * size_z + 0.2});
@@ -181,7 +181,7 @@ TEST(ExternalWrench, WakesWhatRestsOnTheFork) {
   }
 }
 
-/// A rigid tool does not give way, and its wrench on the hand tells of the machine's; a massless object feels nothing.
+/// A rigid tool does not yield, and its wrench on the hand includes the machine's; a massless object is not affected.
 TEST(ExternalWrench, OnARigidToolTheHandFeelsIt) {
   SimulationSettings set;
   set.tool = tools::Tool::direct;
@@ -212,7 +212,7 @@ TEST(ExternalWrench, ThoseOfTwoHandsAdd) {
   EXPECT_NEAR(simulation.fork(0).tip_wrench_W.force.z() + simulation.fork(1).tip_wrench_W.force.z(), 0.0, 1e-3);
 }
 
-/// Beyond its limit the tool slips, and the machine's wrench goes on acting.
+/// Beyond its limit the tool slips, and the machine's wrench continues to act.
 TEST(ExternalWrench, ActsWhileTheToolSlips) {
   SimulationSettings set;
   set.limit.force = 12.0;
@@ -255,8 +255,8 @@ TEST(ExternalWrench, TheLargestLeavesEverythingFinite) {
   }
 }
 
-/// Its stamps are those of the hand's samples, but for a rounding error: no step of its own comes of that.
-TEST(ExternalWrench, ARoundingErrorBesideASampleMakesNoStep) {
+/// Stamps equal to those of the hand's samples up to rounding do not cause extra steps.
+TEST(ExternalWrench, ARoundingErrorNextToASampleAddsNoStep) {
   for (const double off : {0.0, 1e-13, -1e-13}) {
     Simulation simulation = holding(one_box(scene::ContactMode::stop));
     AdvanceReport report = simulation.advance(0.99);

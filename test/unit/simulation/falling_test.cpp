@@ -1,4 +1,4 @@
-// What is in the air at the start falls; what stands stays.
+// Objects in the air at the start fall; standing ones stay.
 #include <gtest/gtest.h>
 
 #include "spring_workbench/validation/names.h"

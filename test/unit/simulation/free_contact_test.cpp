@@ -1,4 +1,4 @@
-// What is let go, on the bench and on an incline, in both contact modes: against the exact solutions.
+// Released objects on the bench and on an incline, in both contact modes, against exact solutions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -159,7 +159,7 @@ TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
     b.X_WO.linear() = R;
     b.X_WO.translation() = ramp.X_WO * Vector3d(0, 0, 0.1 + 0.025 + 1e-6);
     SimulationSettings set;
-    // A fork that does nothing: an object that it takes and lets go again keeps its velocity, and is awake.
+    // A fork without effect: an object that it grasps and releases keeps its velocity and stays awake.
     set.fork.shape = rod::ShapeKind::bushing;
     set.fork.stiffness = {0.0, 0.0, 0.0};
     Simulation s(scene_of({ramp, b}, GetParam(), mu), set);

@@ -58,8 +58,8 @@ TEST(ManyHands, AroundTheMiddleEachCarriesItsShare) {
   }
 }
 
-/// Three hands on one plate, each on its own way with springs of its own and taking hold at a time of its own: where
-/// the plate is then. `number[k]`: which stylus the hand k has.
+/// State of a plate held by three hands, each with its own motion, springs and time of grasp. `number[k]`: stylus of
+/// hand k.
 std::vector<bodies::BodyState> carried_by_three(const std::vector<std::size_t>& number, const std::string& shape) {
   Simulation simulation(plate(), with(3, shape));
   for (std::size_t k = 0; k < 3; ++k) {
@@ -140,7 +140,7 @@ TEST(ManyHands, WhatIsSetForOneNeverChangesTheOthers) {
 }
 
 /// Of all together, and of one after the other, on one object and while it moves.
-TEST(ManyHands, ToSetWhatIsSetAlreadyMovesNothing) {
+TEST(ManyHands, SettingThePresentValueMovesNothing) {
   for (const std::string& shape : test_support::shape_names()) {
     const auto run = [&](bool again) {
       Simulation s(plate(), with(3, shape));
@@ -162,7 +162,7 @@ TEST(ManyHands, ToSetWhatIsSetAlreadyMovesNothing) {
   }
 }
 
-TEST(ManyHands, WhoLetsGoLeavesTheWeightToTheOthers) {
+TEST(ManyHands, AReleasingHandLeavesTheWeightToTheOthers) {
   for (const std::string& shape : test_support::shape_names()) {
     Simulation s(plate(), with(4, shape));
     for (std::size_t hand = 0; hand < 4; ++hand) {

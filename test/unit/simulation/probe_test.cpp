@@ -82,8 +82,8 @@ TEST(Probe, PressesByTheMaterialInSeriesWithItsOwnSpring) {
   }
 }
 
-/// An estimator that sees a tracker's noise and the probe's force alone: as sure as it says, and sure to 5 % where the
-/// material gives way by enough.
+/// The estimator, given only the noisy tracker and the probe's force, has its nominal confidence, and reaches 5 % if
+/// the material deforms enough.
 TEST(Probe, MeasuresTheMaterialThroughATrackersNoise) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -117,7 +117,7 @@ TEST(Probe, MeasuresTheMaterialThroughATrackersNoise) {
   EXPECT_GT(sure, 200);
 }
 
-TEST(Probe, WhatIsRigidReadsAsInfinite) {
+TEST(Probe, ARigidBodyReadsAsInfinite) {
   const auto readings = Press{std::numeric_limits<double>::infinity(), 2000.0, 0.03}.run(1, [](const auto&) {});
   ASSERT_TRUE(readings.material());
   EXPECT_EQ(readings.material()->material.value, std::numeric_limits<double>::infinity());
@@ -163,7 +163,7 @@ TEST(Probe, PushesABoxAlongTheBenchAgainstFriction) {
     EXPECT_NEAR(tool.tip_wrench_W.force.x(), mu * g, 0.02 * mu * g);
     EXPECT_NEAR(simulation.objects()[0].V_WO_W.linear.x(), 0.1, 2e-3);
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().x() - 0.05, -0.15 + 0.18 + 0.2 - mu * g / probe, 1e-3);
-    // Drawn back, it leaves the box where it is.
+    // When withdrawn, it leaves the box in place.
     for (double t = 2.0; t < 3.0; t += 0.02) simulation.push_stylus({t, level({0.05 - 0.2 * (t - 2.0), 0.0, 0.02})});
     simulation.advance(3.0);
     EXPECT_EQ(simulation.fork().touched, "");

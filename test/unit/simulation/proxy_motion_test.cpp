@@ -1,4 +1,5 @@
-// The motion of what a tool holds that cannot follow a contact: its proxy moves as the hand does, beyond what it gives.
+// Motion of an object whose tool cannot comply with a contact: its proxy moves like the hand, apart from its
+// compliance.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Every object of the shipped scenes and of a collection of other people's URDFs in the hand.
+// Every object of the shipped scenes and of a collection of third-party URDFs, held by a hand.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Grasped at its centre by a calibrated fork, lifted 0.2 m, put down and let go.
+/// Grasps a body at its centre with a calibrated fork, lifts it by 0.2 m, puts it down and releases it.
 void lift_and_put_down(const scene::Scene& scene, const scene::Body& body) {
   SimulationSettings set;
   set.grasp.object = body.name;

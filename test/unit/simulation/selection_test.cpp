@@ -1,4 +1,4 @@
-// Which object the fork's tip takes, and where in it (paper, section 5).
+// Which object the fork's tip grasps, and at which point (paper, section 5).
 #include <gtest/gtest.h>
 
 #include "support/bench_scenes.h"
@@ -39,7 +39,7 @@ class Overlapping : public ::testing::Test {
   double t_ = 0.0;
 };
 
-TEST_F(Overlapping, OneIsTakenAndTheOtherOnlyWhenItIsNearerByAFifth) {
+TEST_F(Overlapping, TheOtherIsSelectedOnlyIfItIsNearerByAFifth) {
   const double there = apart / 1.8, back = apart - there;  // where one distance is 0.8 of the other
   EXPECT_EQ(lit_at(-0.051), "");
   EXPECT_EQ(lit_at(0.0), "left");

@@ -184,7 +184,7 @@ TEST(Settings, WhatIsNotAMapIsRefusedAndAnEmptyMapChangesNothing) {
 }
 
 /// What a settings file refuses, settings made in C++ refuse, too.
-TEST(Settings, ValidateRefusesWhatAFileMayNotSay) {
+TEST(Settings, ValidateRefusesWhatFilesMayNotContain) {
   const auto refused = [](auto change) {
     SimulationSettings settings;
     change(settings);
@@ -212,8 +212,8 @@ TEST(Settings, ValidateRefusesWhatAFileMayNotSay) {
   });
 }
 
-/// One who knows the key of before the first release is told the present one.
-TEST(Settings, ARenamedKeyIsToldItsNewName) {
+/// A key from before the first release is reported with its present name.
+TEST(Settings, ARenamedKeyIsReportedWithItsNewName) {
   for (const auto& [before, now] : validation::renamed()) {
     if (before.find('.') == std::string::npos) continue;  // a message's field
     SimulationSettings settings;
@@ -224,7 +224,7 @@ TEST(Settings, ARenamedKeyIsToldItsNewName) {
   }
 }
 
-TEST(Settings, ARenamedWordIsToldItsNewOne) {
+TEST(Settings, ARenamedValueIsReportedWithItsNewName) {
   SimulationSettings settings;
   const std::string message = refusal("integrator: closed_form", settings);
   EXPECT_TRUE(contains(message, "integrator: must be paper, which has replaced it, got closed_form")) << message;

@@ -16,7 +16,7 @@ namespace {
 constexpr double sample = 0.02, duration = 1.0;
 using MakeHold = std::function<Simulation(const dynamics::DynamicsSettings&, bool soft)>;
 
-/// The hands' ways, from rest: as smooth as samples at 50 Hz make them.
+/// Motion of the hands, starting from rest; as smooth as samples at 50 Hz allow.
 Vector3d swing(double time) {
   const double t = std::max(0.0, time - 0.06);
   return {0.1 * (1.0 - std::cos(6.0 * t)), 0.05 * (1.0 - std::cos(9.0 * t)), 0.05 * (1.0 - std::cos(7.0 * t))};
@@ -211,7 +211,7 @@ SimulationSettings with_coefficients(double k, const std::string& shape) {
   return set;
 }
 
-/// The poses of a box that so many hands, all on one way, hold by forks.
+/// Poses of a box that this many hands with the same motion hold by forks.
 std::vector<RigidTransform> on_one_way(const SimulationSettings& set, std::size_t hands, double second = 1.0) {
   SimulationSettings of_all = set;
   of_all.styluses = static_cast<int>(hands);
@@ -250,7 +250,8 @@ TEST(SharedLaw, ForksInOnePlaceAreOneOfAllTheirStiffness) {
 
 TEST(SharedLaw, AForkWithoutStiffnessIsNotThere) {
   for (const std::string& shape : test_support::shape_names()) {
-    if (shape == "constant") continue;  // what a constant curvature cannot do is rigid, whatever its stiffness
+    if (shape == "constant")
+      continue;  // motions that a constant curvature cannot represent are rigid, whatever the stiffness
     const SimulationSettings set = with_coefficients(800.0, shape);
     EXPECT_LT(farthest(on_one_way(set, 2, 0.0), on_one_way(set, 1)), 1e-9) << shape;
   }
@@ -280,7 +281,7 @@ TEST(SharedLaw, MirroredHandsMoveItInTheirPlane) {
   }
 }
 
-/// What the tools say that they do to the object, and its weight, is the rate of its momentum.
+/// The reported wrenches of the tools plus the weight equal the rate of momentum of the object.
 TEST(SharedLaw, ReadingsOfAllToolsAreTheChangeOfMomentum) {
   for (const Case& c : cases()) {
     Simulation simulation = c.setup(stepping(dynamics::IntegratorKind::exponential, 1e-3), false);
@@ -304,7 +305,7 @@ TEST(SharedLaw, ReadingsOfAllToolsAreTheChangeOfMomentum) {
   }
 }
 
-/// Nothing is gained by integration: the energy's audit knows all hands, springs and dampers.
+/// Integration adds no energy: the energy balance includes all hands, springs and dampers.
 TEST(SharedLaw, EnergyIsAccountedFor) {
   for (const Case& c : cases()) {
     const auto added = [&](double step) {
@@ -362,8 +363,8 @@ TEST(SharedLaw, TheBenchCarriesWhatBothHandsPress) {
   }
 }
 
-/// Forks that only bend, pressed down: no step is spent on a fight of what is rigid in both, and nothing gets stuck.
-/// What is off in the one that follows holds its side of the box up: so far it gives way under the weight, and no more.
+/// Forks that only bend, pressed down: their rigid directions do not conflict, and nothing gets stuck. The DOFs that
+/// are off in the follower carry their side of the box and yield only that much under the weight.
 TEST(SharedLaw, WhatIsOffInBothForksSharesThePressOnTheBench) {
   for (const std::string& shape : test_support::shape_names()) {
     SimulationSettings set = with({}, shape);
@@ -390,7 +391,7 @@ TEST(SharedLaw, WhatIsOffInBothForksSharesThePressOnTheBench) {
   }
 }
 
-/// A rigid tool leads exactly, and a fork beside it strains by what it is led.
+/// A rigid tool leads exactly, and a fork next to it is strained by that motion.
 TEST(SharedLaw, ARigidToolLeadsExactly) {
   Simulation simulation = two_forks({}, "bushing", false);
   simulation.advance(0.0);

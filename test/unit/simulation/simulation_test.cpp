@@ -67,7 +67,7 @@ TEST(Simulation, ThrownObjectFliesOnAParabolaAndKeepsItsAngularMomentum) {
   EXPECT_LT((momentum(end) - momentum(start)).norm(), 1e-12 + 1e-9 * momentum(start).norm());
 }
 
-TEST(Simulation, WhatFliesAwayStopsAtTheEndOfTheWorld) {
+TEST(Simulation, AFlyingObjectStopsAtTheEndOfTheWorld) {
   for (const double height : {99.0, 101.0}) {
     Simulation simulation(box_scene({0.0, 0.0, 2.0}, scene::ContactMode::none), settings());
     simulation.place({{"box", make_transform(Quaterniond::Identity(), {0.0, 0.0, height})}});
@@ -173,7 +173,7 @@ TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
   }
   const tools::ToolState fork = simulation.fork();
   EXPECT_NEAR(fork.X_WH_proxy.translation().z() - fork.X_WH.translation().z(), 0.05, 2e-3);
-  // The way is free again: the gap closes.
+  // The path is free again: the gap closes.
   simulation.advance(3.0);
   EXPECT_LT((simulation.fork().X_WH_proxy.matrix() - simulation.fork().X_WH.matrix()).norm(), 1e-9);
   EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.12, 1e-6);
@@ -321,7 +321,7 @@ TEST_F(Switching, DampingLaws) {
 TEST_F(Switching, BadValuesChangeNothing) {
   const double nan = std::nan("");
   for (const double k : {nan, -1.0, 1e20}) {
-    ForkChange change;  // what is good in it stays undone, too
+    ForkChange change;  // its valid parts are not applied either
     change.bend_stiffness = 700.0;
     change.dofs = {true, false, true};
     change.stretch_stiffness = k;
@@ -353,7 +353,7 @@ TEST_F(Switching, BadValuesChangeNothing) {
   expect_no_jump();
 }
 
-TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
+TEST(Simulation, EveryIntegratorReportsTheStiffestModeAndItsErrors) {
   // A pure stretch oscillator: ω = √(k/m).
   for (const std::string& name : test_support::integrator_names()) {
     SimulationSettings set = settings();
@@ -372,7 +372,7 @@ TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
   }
 }
 
-TEST(Simulation, ToleranceTakesMoreStepsAndSaysSo) {
+TEST(Simulation, ToleranceTakesMoreStepsAndReportsThem) {
   const auto steps = [](double tolerance) {
     SimulationSettings set = settings();
     set.dynamics.integrator = dynamics::IntegratorKind::rk4;
@@ -400,7 +400,7 @@ TEST(Simulation, SameInputGivesTheSameBits) {
   EXPECT_EQ(std::memcmp(a.data(), b.data(), 16 * sizeof(double)), 0);
 }
 
-TEST(Simulation, ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn) {
+TEST(Simulation, ARoundingErrorBetweenEndAndSampleAddsNoStep) {
   for (const double off : {-1e-15, 0.0, 1e-15}) {
     Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
     push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.1, 0.0, 0.1));
@@ -424,7 +424,7 @@ TEST(Simulation, EnergyAddedIsTheIntegratorsErrorAndFallsWithTheStep) {
     return std::abs(simulation.advance(1.0).energy_added);
   };
   EXPECT_LT(added("exponential", 0.002), 1e-6);
-  EXPECT_GT(added("semi_implicit_euler", 2e-4), 1e-6);  // it is seen where it is there
+  EXPECT_GT(added("semi_implicit_euler", 2e-4), 1e-6);  // an integrator that adds energy is detected
   EXPECT_NEAR(added("semi_implicit_euler", 2e-4) / added("semi_implicit_euler", 1e-4), 2.0, 0.3);
 }
 

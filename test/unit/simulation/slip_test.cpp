@@ -33,7 +33,7 @@ double gap(const Simulation& simulation) {
 
 class Slip : public testing::TestWithParam<scene::ContactMode> {};
 
-/// What a tool that pulls at a box of 5 kg does: the hand goes 0.4 m up, waits, and comes back.
+/// A tool that pulls on a box of 5 kg: the hand moves up by 0.4 m, waits, and returns.
 struct Pulled {
   double largest = 0.0, jump = 0.0;  ///< force, and its change over a step [N]
   double at_limit = 0.0;             ///< [s]
@@ -85,8 +85,8 @@ TEST_P(Slip, WhatIsTooHeavyIsPulledWithTheLimitAndTheWrenchDoesNotJump) {
   }
 }
 
-/// Lifted faster than the limit lets it: it is pulled up with the limit, and comes to the hand.
-TEST_P(Slip, TheToolComesBackToTheHand) {
+/// Lifted faster than the limit allows: it is pulled up with the limit force and reaches the hand.
+TEST_P(Slip, TheToolReturnsToTheHand) {
   Simulation simulation(one_box(1.0, GetParam()), slipping_at(1.3 * g));
   push_move(simulation, 0.0, 0.4, above, above + Vector3d(0.0, 0.0, 0.3));
   push_move(simulation, 0.42, 6.0, above + Vector3d(0.0, 0.0, 0.3), above + Vector3d(0.0, 0.0, 0.3));
@@ -135,8 +135,8 @@ TEST(SlipInTheAir, TheMomentHasALimit) {
   EXPECT_GT(gap(simulation), 1e-3);
 }
 
-/// Nothing jumps where the tool begins to slip and where it is with the hand again, and a saved state goes on as it
-/// did.
+/// Nothing jumps when the tool starts to slip and when it has returned to the hand, and a saved state continues
+/// identically.
 TEST(SlipInTheAir, WithoutALimitReachedItIsTheSame) {
   const auto run = [](const SimulationSettings& set) {
     Simulation simulation(one_box(1.0, scene::ContactMode::stop), set);

@@ -1,4 +1,4 @@
-// The laws of the simulation's state as a value, over seeded sessions of everything that two hands can do.
+// Laws of the simulation's state as a value, over seeded sessions of everything that two hands can do.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,13 +40,13 @@ scene::Scene boxes(scene::ContactMode mode) {
                   mode);
 }
 
-/// What a session did, so that a test knows that it was about something.
+/// Counts of events in a session, to make sure that a test covers them.
 struct Seen {
   std::set<tools::Tool> tools_in_use;
   int both_hold = 0, contacts = 0, among_movable = 0;
 };
 
-/// All that can be read from a simulation.
+/// Appends all outputs of a simulation.
 void append_outputs(const Simulation& s, const AdvanceReport& report, Numbers& out) {
   const auto matrix = [&](const auto& m) { out.insert(out.end(), m.data(), m.data() + m.size()); };
   out.insert(out.end(), {s.time(), double(report.steps), report.position_error, report.angle_error, report.energy_added,
@@ -142,7 +142,7 @@ Numbers go_on(Simulation& s, unsigned session, int from, int to, Seen* seen = nu
   return ::testing::AssertionSuccess();
 }
 
-void do_something_wild(Simulation& s, unsigned session, int k) {
+void apply_random_action(Simulation& s, unsigned session, int k) {
   Random random(7777 * session);
   go_on(s, session + 500, k, k + 1 + static_cast<int>(random() % 12));
   switch (random() % 4) {
@@ -200,7 +200,7 @@ TEST(State, RestoredAfterAnythingGivesTheSameFuture) {
       ASSERT_TRUE(same_bits(future, go_on(s, number, saved_at, end, &seen))) << "saving";
       EXPECT_NE(last, saved.hash());
 
-      do_something_wild(s, number, end);
+      apply_random_action(s, number, end);
       s.restore(saved);
       EXPECT_EQ(s.save(), saved);
       ASSERT_TRUE(same_bits(future, go_on(s, number, saved_at, end))) << "the same simulation";
@@ -275,7 +275,7 @@ TEST(State, OfAnotherSceneIsRefused) {
   EXPECT_EQ(s.state_hash(), before);
 }
 
-TEST(State, TextThatIsNoneIsRefused) {
+TEST(State, InvalidTextIsRefused) {
   const std::string text = serialise(Simulation(boxes(scene::ContactMode::stop), {}).save());
   EXPECT_EQ(serialise(parse_state(text)), text);
   std::string flipped = text;

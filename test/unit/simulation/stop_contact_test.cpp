@@ -1,4 +1,4 @@
-// Contact mode `stop` against what statics and geometry say.
+// Contact mode `stop` against statics and geometry.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -99,7 +99,7 @@ TEST(StopContact, FlushAndShiftedItBendsTheForkInSShape) {
     const SShape own = own_figure("linear", bend, force);
     EXPECT_NEAR(own.deflection / length, exact.deflection, 2e-3 * exact.deflection);
     EXPECT_NEAR(own.shortening / length, exact.shortening, 1e-2 * exact.shortening);
-    // The height at which the rod pushes and pulls nothing, by the secant.
+    // The height at which the rod exerts no axial force, by the secant method.
     double z0 = 0.98 * own.shortening, z1 = 1.02 * own.shortening;
     double f0 = shift(bend, own.deflection, z0).axial;
     Shifted there = shift(bend, own.deflection, z1);
@@ -112,7 +112,7 @@ TEST(StopContact, FlushAndShiftedItBendsTheForkInSShape) {
     EXPECT_LT(there.slid, 2e-6) << exact.alpha;
     EXPECT_LT(std::abs(there.axial), 1e-3 * force) << exact.alpha;
     EXPECT_NEAR(there.sideways, force, 1e-3 * force) << exact.alpha;
-    // The rod, which gives way along itself a little, is as near to the exact one as its shape model is.
+    // The slightly extensible rod is as accurate as its shape model.
     EXPECT_NEAR(z1 / length, exact.shortening, 1e-6 + std::abs(own.shortening / length - exact.shortening))
         << exact.alpha;
   }
@@ -154,8 +154,8 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
   }
 }
 
-/// A hand presses a box on the bench along what is rigid, and shifts it sideways by less than friction holds.
-TEST(StopContact, AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack) {
+/// A hand presses a box onto the bench along a rigid direction, and shifts it sideways within friction.
+TEST(StopContact, AForkThatCannotFollowPressesByItsRuleAndBlocksNothing) {
   constexpr double pressed = 2e-3, T = 5e-3;  // m, s: doc/model.md
   for (const rod::ForkDofs dofs :
        {rod::ForkDofs{false, false, false}, rod::ForkDofs{false, true, false}, rod::ForkDofs{false, true, true}}) {
@@ -224,8 +224,7 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   EXPECT_NEAR(s.objects()[0].X_WO.translation().z(), 0.035, 1e-3);
 }
 
-/// Dropped flat from a height, it comes back to e² of it, where e is the geometric mean of both materials'
-/// restitutions.
+/// Dropped flat from a height, it returns to e² of it, where e is the geometric mean of both restitutions.
 TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
   constexpr double edge = 0.1, height = 0.3;
   for (const double of_box : {0.9, 0.4}) {
@@ -267,8 +266,8 @@ TEST(StopContact, TheErrorInEnergyKnowsTheWorkOfTheBench) {
   EXPECT_EQ(report.substeps, 0);
 }
 
-/// Lowered onto the bench, pressed by 100 N and moved along it without friction: short steps go the way of long ones,
-/// and nothing hovers.
+/// Lowered onto the bench, pressed by 100 N and moved along it without friction: short and long steps give the same
+/// path, and nothing hovers.
 TEST(StopContact, ShortStepsGoTheWayOfLongOnes) {
   const auto heights = [](double step) {
     SimulationSettings settings;

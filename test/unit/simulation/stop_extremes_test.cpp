@@ -1,4 +1,4 @@
-// Contact mode `stop` where masses, stiffnesses and starts are extreme: finite, bounded, and no energy from nowhere.
+// Contact mode `stop` with extreme masses, stiffnesses and starts: finite, bounded, and no energy is created.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,7 +71,8 @@ TEST_P(PressedAndShifted, Follow) {
           least = now;
           continue;
         }
-        // The hand is at rest: no more comes back than the 3 µm are worth that a contact may be deep (doc/model.md).
+        // With the hand at rest, energy may grow by at most the equivalent of the allowed contact depth of 3 µm
+        // (doc/model.md).
         EXPECT_LE(now - least, 3e-6 * hardest + 1e-12 * now) << mass << " " << k << " " << i;
         least = std::min(least, now);
       }
@@ -97,8 +98,8 @@ TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
   }
 }
 
-/// Grasped while it touches bench and neighbour, or is in the neighbour by `overlap`: it comes out without being
-/// thrown.
+/// Grasped while it touches bench and neighbour, or penetrates the neighbour by `overlap`: it is separated without
+/// being ejected.
 TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
   for (const double overlap : {0.0, 1e-4, 5e-3}) {
     for (const double k : {100.0, 1e5}) {

@@ -103,7 +103,7 @@ TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
   }
 }
 
-TEST(ToolSize, CalibratingOnTheWayJumpsNeitherInPoseNorInTwist) {
+TEST(ToolSize, CalibratingInMotionJumpsNeitherInPoseNorInTwist) {
   for (const rod::ForkDofs& dofs :
        {rod::ForkDofs{true, true, true}, rod::ForkDofs{false, true, false}, rod::ForkDofs{false, false, false}}) {
     SimulationSettings set = settings(false);

@@ -50,7 +50,7 @@ TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
       ASSERT_EQ(two.simulation.fork(0).held_object, "box");
       ASSERT_EQ(two.simulation.fork(1).held_object, "box");
       two.simulation.advance(6.0);
-      // Each began without strain: the first one sagged before the other grasped, so each has its own share.
+      // Each started without strain, and the first one sagged before the second grasped, so the shares differ.
       const tools::ToolState a = two.simulation.fork(0), b = two.simulation.fork(1);
       EXPECT_NEAR(a.tip_wrench_W.force.z() + b.tip_wrench_W.force.z(), 2.0 * g, 1e-5 * 2.0 * g) << shape << k;
       EXPECT_LT(two.simulation.objects()[0].V_WO_W.linear.norm(), 1e-6) << shape << k;
@@ -82,7 +82,7 @@ TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
   EXPECT_GT(two.simulation.fork(1).tip_wrench_W.force.norm(), 0.1);
 }
 
-/// How fast a box gets that two hands carry on, each turning about its own fork [m/s].
+/// Largest speed of a box that two hands carry, each turning about its own fork [m/s].
 double fastest(const SimulationSettings& set) {
   BothHold two(set, 0.5, scene::ContactMode::stop);
   push_move(two.simulation, 0.22, 1.0, left, left + Vector3d(0.1, 0.05, 0.1), 0.4, 0);
@@ -120,7 +120,7 @@ TEST(TwoHands, NoStiffnessMakesItBlowUp) {
   }
 }
 
-/// Hands that go through each other and wind the forks up, further than these can follow, and come back to rest.
+/// Hands that pass through each other and wind up the forks beyond their range, and come to rest again.
 TEST(TwoHands, HandsThatPassThroughEachOtherLeaveAllFiniteAndThenCarryTheWeight) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -183,7 +183,7 @@ TEST(TwoHands, AForkPushedPastItsEndLeavesItsHandleBehindUntilItComesBack) {
   EXPECT_NEAR(f.tip_wrench_W.force.z() + two.simulation.fork(0).tip_wrench_W.force.z(), 2.0 * g, 1e-4);
 }
 
-/// Whatever the forks' stiffness: the second one takes over what the springs of both have done.
+/// For any stiffness, the second fork takes over the force of both.
 TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
   for (const std::string& shape : test_support::shape_names()) {
     for (const double soft : {0.5, 1.0, 10.0, 100.0}) {  // 1: what calibration gives 2 kg on a fork of 0.2 m
@@ -198,16 +198,16 @@ TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
       EXPECT_EQ(two.simulation.fork(1).held_object, "box");
       EXPECT_TRUE(two.simulation.objects()[0].held);
       EXPECT_LT((two.simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-9);
-      double farthest = 0.0, most_turned = 0.0, fastest = 0.0;
+      double farthest = 0.0, max_turned = 0.0, fastest = 0.0;
       for (double t = 6.01; t < 8.0; t += 0.01) {
         two.simulation.advance(t);
         const bodies::BodyState& o = two.simulation.objects()[0];
         farthest = std::max(farthest, (o.X_WO.translation() - before.X_WO.translation()).norm());
-        most_turned = std::max(most_turned, (o.X_WO.linear() - before.X_WO.linear()).norm());
+        max_turned = std::max(max_turned, (o.X_WO.linear() - before.X_WO.linear()).norm());
         fastest = std::max(fastest, o.V_WO_W.linear.norm());
       }
       EXPECT_LT(farthest, 1e-4) << shape << ": " << k;
-      EXPECT_LT(most_turned, 1e-3) << shape << ": " << k;
+      EXPECT_LT(max_turned, 1e-3) << shape << ": " << k;
       EXPECT_LT(fastest, 1e-3) << shape << ": " << k;  // no energy comes from it
       EXPECT_NEAR(two.simulation.fork(1).tip_wrench_W.force.z(), 2.0 * g, 1e-4) << shape << ": " << k;
       EXPECT_NEAR(two.p().z(), height, 1e-4);
@@ -215,8 +215,8 @@ TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
   }
 }
 
-/// The hands go on together while one lets go: the object goes on with them, and so it does when it comes back.
-TEST(TwoHands, HandoverOnTheWayLeavesTheObjectOnItsWay) {
+/// The hands keep moving together while one releases and grasps again: the object continues with them.
+TEST(TwoHands, AHandoverInMotionDoesNotDisturbTheObject) {
   const auto run = [](bool hand_over) {
     BothHold two(with_stiffness(981.0, 981.0, 5.0));
     const Vector3d path(0.2, 0.1, 0.1);

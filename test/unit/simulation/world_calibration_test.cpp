@@ -1,4 +1,4 @@
-// One fork for all objects of a scene: who lifts one after the other sees which is heavier.
+// One fork for all objects of a scene: lifting one after the other shows which is heavier.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ tools::ToolState at_rest(const scene::Scene& scene, const std::string& name, con
   return simulation.fork();
 }
 
-TEST(WorldCalibration, OverEveryShippedSceneTheForkTellsTheWeight) {
+TEST(WorldCalibration, TheForkShowsTheWeightInEveryShippedScene) {
   int scenes_seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
     if (entry.path().extension() != ".urdf") continue;

@@ -75,7 +75,7 @@ TEST(ContactSynthesizer, SlippingIsLouderAndHigherWithItsSpeedAndEnds) {
 }
 
 /// Half of the amplitude at 0.2 N·s; at 0.2 m/s half of the loudness, and the pitch half way up.
-TEST(ContactSynthesizer, HalfOfTheLoudestIsWhereItIsSaid) {
+TEST(ContactSynthesizer, HalfOfTheFullLoudnessIsAtItsConstant) {
   EXPECT_NEAR(energy_of_strike(0.2) / energy_of_strike(1e9), 0.25, 1e-6);
   const int half = crossings(scraping(0.2)), low = crossings(scraping(1e-4)), high = crossings(scraping(1e9));
   EXPECT_NEAR(half - low, 0.5 * (high - low), 0.1 * (high - low));

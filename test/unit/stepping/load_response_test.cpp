@@ -17,7 +17,7 @@ namespace {
 
 using namespace dynamics;
 
-/// A fork somewhere in its range, most of them far from straight, after a short step.
+/// A random fork within its range, usually strongly bent, after a short step.
 struct Case {
   explicit Case(unsigned seed) : random(seed) {
     const std::string shape = std::vector<std::string>{"linear", "constant", "bushing"}[seed % 3];

@@ -23,7 +23,7 @@ StrainState carried(const Case& c, double t, double h, int steps, StrainState st
 }
 
 /// Families by bits: stretch, bend, torsion.
-StrainState set_families(HeldBody& held, int families, double t = 0.0) {
+StrainState switch_dofs(HeldBody& held, int families, double t = 0.0) {
   const rod::StrainVector zero = rod::StrainVector::Zero(held.shape().size());
   return held.set_dofs({(families & 1) != 0, (families & 2) != 0, (families & 4) != 0}, t, 0.05, {zero, zero});
 }
@@ -35,7 +35,7 @@ TEST(Paper, ComesToTheRestOfTheEquationOfMotion) {
     const std::string shape =
         test_support::shape_names()[static_cast<std::size_t>(trial) % test_support::shape_names().size()];
     Case c = random_case(shape, 1.0, 1.0, random);
-    StrainState state = set_families(c.held, 1 + trial % 7);
+    StrainState state = switch_dofs(c.held, 1 + trial % 7);
     c.hand = motion::MotionSegment(c.hand.at(0.0).X);
     state = carried(c, 0.0, 0.05, 400, state);
     const rod::StrainVector a =
@@ -178,7 +178,7 @@ TEST(Paper, NoHandNoForkAndNoStepMakesItRejectOne) {
         test_support::shape_names()[static_cast<std::size_t>(trial) % test_support::shape_names().size()];
     HeldBody held(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, 9.81);
     held.set_springs({4.0 * k, k, 0.01 * k}, {zeta, zeta, zeta});
-    StrainState state = set_families(held, 1 + trial % 7);
+    StrainState state = switch_dofs(held, 1 + trial % 7);
     motion::PoseTrack track;
     for (double t = 0.0; t < 0.61; t += 0.02) {
       if (hand == Hand::dropout && t > 0.2 && t < 0.45) continue;
@@ -206,7 +206,7 @@ TEST(Paper, EndsAtTheEndOfTheRodsRange) {
   for (const bool torsion : {false, true}) {
     HeldBody held(rod::make_shape_model(rod::ShapeKind::linear, 0.2), body, 9.81);
     held.set_springs({1.0, 1.0, 1.0}, {0.1, 0.1, 0.1});
-    StrainState state = set_families(held, torsion ? 4 : 1);
+    StrainState state = switch_dofs(held, torsion ? 4 : 1);
     if (torsion) held.set_external_wrench({Vector3d::Zero(), Vector3d(0.0, 0.0, 100.0)});
     const motion::MotionSegment rest(RigidTransform::Identity());
     const StepControl control(paper());
@@ -219,7 +219,7 @@ TEST(Paper, EndsAtTheEndOfTheRodsRange) {
   }
 }
 
-TEST(Paper, AimsForWhereItTouchesWhatIsInTheWay) {
+TEST(Paper, SelectsTheFirstBodyInFront) {
   // A wall that the hanging object would sink through, and one that it does not reach.
   BodyInertia body;
   body.inertia_O = Vector3d(0.003, 0.0045, 0.004).asDiagonal();
@@ -256,7 +256,7 @@ TEST(Paper, WithoutStiffnessTheObjectIsFree) {
   for (const double k : {0.0, 1e-6}) {
     HeldBody held(rod::make_shape_model(rod::ShapeKind::linear, 0.2), body, 9.81);
     held.set_springs({k, 500.0, 5.0}, {1.0, 1.0, 1.0});
-    StrainState state = set_families(held, 1);
+    StrainState state = switch_dofs(held, 1);
     const motion::MotionSegment hanging(make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d::Zero()));
     const auto integrator = paper();
     for (int i = 0; i < 10; ++i) integrator->step(held, hanging, 0.05 * i, 0.05, state);
@@ -272,7 +272,7 @@ TEST(Paper, SaysHowItsStepRespondsToALoad) {
         test_support::shape_names()[static_cast<std::size_t>(trial) % test_support::shape_names().size()];
     Case c = random_case(shape, 1.0, 0.2, random);
     c.hand = motion::MotionSegment(c.hand.at(0.0).X);
-    StrainState begin = set_families(c.held, 1 + trial % 7);
+    StrainState begin = switch_dofs(c.held, 1 + trial % 7);
     const auto integrator = paper();
     for (int i = 0; i < 10; ++i) integrator->step(c.held, c.hand, 0.01 * i, 0.01, begin);
     const double h = 0.01;

@@ -71,7 +71,7 @@ double energy(const HeldBody& held, const motion::MotionSegment& hand, double t,
   return held.elastic_energy(t, s) + held.kinetic_energy(o.velocity, o.X.linear()) + held.body().mass * 9.81 * height;
 }
 
-/// Half a second with the hand moving, then half a second with it at rest. Empty where all is well.
+/// Runs half a second with the hand moving, then half a second at rest. Returns an empty string if there is no problem.
 std::string what_is_wrong(const Cell& cell, const std::string& shape, const std::string& integrator) {
   const HeldBody held = body_of(cell, shape);
   const StepControl control(test_support::make_integrator(integrator));

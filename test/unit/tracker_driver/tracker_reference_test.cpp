@@ -93,7 +93,7 @@ TEST(WhyNotSent, AnyPoseIsSentAndNothingElse) {
   EXPECT_EQ(reason(Vector3d::Zero(), identity, "joy"), "");
 }
 
-TEST(TrackerParameters, InputSettingsAreSaidToBeOfManipulation) {
+TEST(TrackerParameters, InputSettingsAreReportedAsThoseOfManipulation) {
   for (const std::string key : {"input", "truth"}) {
     EXPECT_EQ(refusal_of("{file: a.tum, " + key + ": {max_speed: 5}}"),
               "/tracker_driver: " + key + ": unknown key; it is now a parameter of manipulation, ~input");

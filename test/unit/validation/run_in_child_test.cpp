@@ -39,7 +39,7 @@ constexpr bool sanitized = false;
 #endif
 
 /// From now on the process, and what it forks, has a kernel without filters.
-void take_filters_away() {
+void remove_filters() {
   sock_filter steps[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
                          BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_prctl, 0, 3),
                          BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args[0])),
@@ -60,7 +60,7 @@ TEST(RunInChild, SaysOnceWhereTheKernelFiltersNothing) {
     dup2(ends[1], STDERR_FILENO);
     close(ends[0]);
     close(ends[1]);
-    take_filters_away();
+    remove_filters();
     bool right = true;
     for (int i = 0; i < 3; ++i) right = right && run_in_child([] { return std::string("done"); }, ample) == "done";
     _exit(right ? 0 : 1);
@@ -159,15 +159,15 @@ TEST(RunInChild, HasNoFileOfTheCallerAndReachesNothing) {
 
 TEST(RunInChild, ComesBackWithNothingFromWhatEatsMemory) {
   if (sanitized) GTEST_SKIP() << "a sanitizer's own memory counts, and it does not come back from a limit";
-  const auto eat = [](std::size_t megabytes) {
+  const auto allocate = [](std::size_t megabytes) {
     return [megabytes] {
-      std::vector<std::unique_ptr<std::string>> eaten;
-      for (std::size_t i = 0; i < megabytes; ++i) eaten.push_back(std::make_unique<std::string>(mebibyte, 'x'));
-      return std::to_string(eaten.size());
+      std::vector<std::unique_ptr<std::string>> allocated;
+      for (std::size_t i = 0; i < megabytes; ++i) allocated.push_back(std::make_unique<std::string>(mebibyte, 'x'));
+      return std::to_string(allocated.size());
     };
   };
-  EXPECT_EQ(run_in_child(eat(20), {60.0, 200 * mebibyte}), "20");
-  EXPECT_FALSE(run_in_child(eat(400), {60.0, 200 * mebibyte}));
+  EXPECT_EQ(run_in_child(allocate(20), {60.0, 200 * mebibyte}), "20");
+  EXPECT_FALSE(run_in_child(allocate(400), {60.0, 200 * mebibyte}));
 }
 
 /// As a node needs it: a scene is then refused, and the node goes on.
@@ -183,9 +183,9 @@ TEST(RunInChild, RefusesWhereTheSystemGivesNoProcess) {
     response = refusal.what();
   }
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
-  EXPECT_EQ(
-      response,
-      "child process: cannot be created (Too many open files); files are read in one, so that a bad file does no harm");
+  EXPECT_EQ(response,
+            "child process: cannot be created (Too many open files); files are read in a child process, so that a bad "
+            "file does no harm");
   EXPECT_EQ(run_in_child([] { return std::string("again"); }, ample), "again");
 }
 

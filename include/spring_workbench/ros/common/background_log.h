@@ -2,12 +2,12 @@
 
 namespace spring_workbench::ros_common {
 
-/// From now on a thread of its own writes what is logged to the terminal: one that does not read (Ctrl-S, a pager, a
-/// pipe that is full) holds no other thread up. If more is logged meanwhile than the queue takes, the rest is lost, and
-/// a line says how many lines there were. To be called once, before other threads log.
+/// Writes log lines to the terminal from a separate thread from now on, so that a terminal that does not read (Ctrl-S,
+/// a pager, a full pipe) blocks no other thread. Lines beyond the capacity of the queue are dropped, and a later line
+/// reports how many. Call once, before other threads log.
 void log_in_background();
 
-/// Whether the standard error output takes a line at once.
+/// Whether standard error can take a line without blocking.
 bool error_output_takes_more();
 
 }  // namespace spring_workbench::ros_common

@@ -7,17 +7,17 @@
 
 namespace spring_workbench::ros_common {
 
-/// A queue of callbacks with a thread of its own, which nothing else keeps waiting.
+/// A callback queue with its own thread, so that its callbacks do not wait for others.
 class CallbackThread {
  public:
-  /// `name`: of the thread, as `top -H` shows it; at most 15 characters.
+  /// `name`: name of the thread, as shown by `top -H`; at most 15 characters.
   explicit CallbackThread(const std::string& name);
-  /// Its callbacks come from the queue.
+  /// Returns the node handle with this queue as its callback queue.
   ros::NodeHandle handle(ros::NodeHandle node) {
     node.setCallbackQueue(&queue_);
     return node;
   }
-  /// Waits for the callback that runs; none runs after that.
+  /// Waits for the running callback; none runs afterwards.
   void stop() { spinner_.stop(); }
 
  private:

@@ -15,7 +15,7 @@
 
 namespace spring_workbench::ros_common {
 
-// Vectors, poses and wrenches as messages: same frames, same units.
+// Conversion of vectors, poses and wrenches to messages, in the same frames and units.
 geometry_msgs::Point to_point(const Vector3d& p);
 geometry_msgs::Vector3 to_vector(const Vector3d& v);
 geometry_msgs::Quaternion to_quaternion(const Matrix3d& R);
@@ -27,7 +27,7 @@ geometry_msgs::TransformStamped to_transform(const RigidTransform& X, const std:
 /// A stamp [ns].
 inline std::int64_t nanoseconds_of(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
 
-/// Quaternions of another length than 1 are normalised.
+/// Quaternions are normalised.
 RigidTransform from_message(const geometry_msgs::Pose& pose);
 RigidTransform from_message(const geometry_msgs::Transform& transform);
 

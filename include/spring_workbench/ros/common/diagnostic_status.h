@@ -22,7 +22,7 @@ class DiagnosticStatusBuilder {
     status_.values.back().value = text.str();
     return *this;
   }
-  /// Raises the level (OK, WARN, ERROR, STALE) with a reason; a lower one than the present changes nothing.
+  /// Raises the level (OK, WARN, ERROR, STALE) with a reason. A level below the present one changes nothing.
   DiagnosticStatusBuilder& raise(int8_t level, const std::string& reason);
   const diagnostic_msgs::DiagnosticStatus& status() const { return status_; }
 
@@ -30,7 +30,7 @@ class DiagnosticStatusBuilder {
   diagnostic_msgs::DiagnosticStatus status_;
 };
 
-/// How evenly a station's samples come, as fields of a status.
+/// Adds how evenly a station's samples arrive, as fields of a status.
 void add_stream(const motion::StreamFigures& stream, DiagnosticStatusBuilder& status);
 
 }  // namespace spring_workbench::ros_common

@@ -8,21 +8,21 @@
 
 namespace spring_workbench::ros_common {
 
-/// The messages of one stream that are stamped before its newest one: they wait for the clock, or for the other stream,
-/// to jump back.
+/// Messages of one stream that are stamped before its newest one. They wait until the clock, or the other stream, jumps
+/// back, too.
 template <typename Message>
 class EarlyMessages {
  public:
-  /// `most`: how many are kept, the newest ones.
-  explicit EarlyMessages(std::size_t most) : most_(most) {}
+  /// `capacity`: maximum number kept; older ones are dropped.
+  explicit EarlyMessages(std::size_t capacity) : capacity_(capacity) {}
 
   void keep(const Message& message) {
     kept_.push_back(message);
-    if (kept_.size() > most_) kept_.pop_front();
+    if (kept_.size() > capacity_) kept_.pop_front();
   }
   bool empty() const { return kept_.empty(); }
   void clear() { kept_.clear(); }
-  /// Takes all; returns those that came after time went back for the last time.
+  /// Removes all; returns those that arrived after the last jump back of time.
   std::deque<Message> take() {
     std::deque<Message> kept = std::exchange(kept_, {});
     for (std::size_t i = kept.size(); i-- > 1;) {
@@ -34,7 +34,7 @@ class EarlyMessages {
   }
 
  private:
-  std::size_t most_;
+  std::size_t capacity_;
   std::deque<Message> kept_;
 };
 

@@ -12,39 +12,40 @@
 
 namespace spring_workbench::ros_common {
 
-/// [s], a clock that does not go back.
+/// Time of a monotonic clock [s].
 double steady_time();
 
-/// Local time [s] that intervals are measured with: ROS time under `use_sim_time`, else the steady clock.
+/// Local time for measuring intervals [s]: ROS time under `use_sim_time`, otherwise the steady clock.
 double loop_time();
 
-/// Now by both clocks.
+/// The present time by both clocks.
 hand_input::LocalTime local_time();
 
-/// ROS time now, without the steps of the wall clock; under `use_sim_time` simulated time.
+/// The present ROS time without the steps of the wall clock; under `use_sim_time`, simulated time.
 motion::WallMoment wall_moment();
 
-/// Converts a stamp of the simulation [ns], a time of wall_moment(), to the present clock; without one, the present.
+/// Converts a stamp of the simulation [ns], a time of wall_moment(), to the present clock. Returns the present time if
+/// there is no stamp.
 ros::Time stamp_of(const std::optional<std::int64_t>& stamp);
 
 /// ROS time at which the steady clock showed `t` [s].
 ros::Time ros_time(double t);
 
-/// Sleeps until `loop_time()` is `t`. Under `use_sim_time` it also returns when the clock goes back, when it stood for
-/// 0.1 s, and on shutdown.
+/// Sleeps until `loop_time()` reaches `t`. Under `use_sim_time` it also returns if the clock jumps back, if it has been
+/// stopped for 0.1 s, or on shutdown.
 void sleep_until_loop_time(double t);
 
-/// Wakes one thread that sleeps.
+/// Wakes a sleeping thread.
 class Alarm {
  public:
-  /// Ends the present sleep, or the next at once.
+  /// Ends the present sleep or, if there is none, the next one immediately.
   void ring();
-  /// As sleep_until_loop_time(), or until another thread rings.
+  /// Like sleep_until_loop_time(), but returns early if another thread calls ring().
   void sleep_until(double t);
 
  private:
   std::mutex mutex_;
-  std::condition_variable bell_;
+  std::condition_variable condition_;
   bool rung_ = false;
 };
 

@@ -6,10 +6,10 @@
 
 namespace spring_workbench::ros_common {
 
-/// Counts rejected input by reason, and reports it in the log: at most one line per reason in five seconds.
+/// Counts rejected input by reason and logs it, at most one line per reason in five seconds.
 class Rejections {
  public:
-  /// `line`: what was wrong with it, and what would be right.
+  /// `line`: what is wrong with the input, and what would be valid.
   void add(const std::string& reason, const std::string& line);
   const std::map<std::string, std::size_t>& counts() const { return counts_; }
 

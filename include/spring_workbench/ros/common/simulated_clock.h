@@ -10,27 +10,27 @@ namespace spring_workbench::ros_common {
 /// separate connections, so messages that were sent before a jump may arrive after it.
 class SimulatedClock {
  public:
-  /// [s] a step back of up to this is no jump. Less: a small correction of the clock restarts the scene. Test:
-  /// manipulation_test.py::test_starts_anew_when_time_jumps_back.
+  /// [s]; a smaller step back is not a jump. Smaller: a small correction of the clock restarts the scene. Test:
+  /// manipulation_test.py::test_restarts_when_time_jumps_back.
   static constexpr double slip = 0.1;
   struct Stream {
-    ros::Time newest;  ///< stamp, of this epoch; zero before the first message
+    ros::Time newest;  ///< newest stamp of this epoch; zero before the first message
   };
 
-  /// Returns the present time for a message of `stream` with this stamp, or nothing if the message belongs to the time
-  /// after a jump that has not been made yet, and has to wait. After a jump of the clock, a stamp that is later than
-  /// its stream's newest and within `max_age` [s] of the clock's last time before the jump belongs to the time before
-  /// it.
+  /// Returns the present time for a message of `stream` with this stamp, or nothing if the message was sent after a
+  /// jump that has not been made yet, so that it has to wait. After a jump of the clock, a message counts as sent
+  /// before the jump if its stamp is later than the newest of its stream and within `max_age` [s] of the clock's last
+  /// time before the jump.
   std::optional<ros::Time> moment_of(const ros::Time& stamp, const Stream& stream, double max_age);
-  /// Returns true as long as the other stream may still follow a jump back.
-  bool is_patient() const;
+  /// Returns whether to keep waiting for the other stream to follow a jump back.
+  bool is_waiting() const;
   /// Makes the jump. Returns by how much the clock went back [s].
   double restart();
 
  private:
   ros::Time last_now_;
-  bool jumped_ = false;     ///< it went back, and the streams have not both followed yet
-  double jumped_at_ = 0.0;  ///< when that was noticed, in attended time [s]
+  bool jumped_ = false;     ///< the clock jumped back, and the streams have not both followed yet
+  double jumped_at_ = 0.0;  ///< when the jump was noticed, in attended time [s]
 };
 
 }  // namespace spring_workbench::ros_common

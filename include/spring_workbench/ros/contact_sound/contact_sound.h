@@ -4,8 +4,8 @@
 
 namespace spring_workbench::contact_sound {
 
-/// The node `contact_sound`: `contacts` in, sound out, to the sound device or to the WAV file `~file`; until shutdown.
-/// Reads `~volume` and `~file`. Throws InputError when one cannot be used or there is no sound device.
+/// Runs the node `contact_sound` until shutdown: plays the topic `contacts` as sound on the sound device or into the
+/// WAV file `~file`. Reads `~volume` and `~file`. Throws InputError if one is invalid or if there is no sound device.
 void run(ros::NodeHandle node, const ros::NodeHandle& private_node);
 
 }  // namespace spring_workbench::contact_sound

@@ -13,21 +13,21 @@
 
 namespace spring_workbench::machine_link {
 
-/// What a device or a machine takes of the tool in one hand: `wrench`, which the hand would feel, `tip_twist`, for a
-/// servo that follows the tip, and `joy_feedback`, which makes a game pad vibrate; and what the tool measures: `probe`.
-/// A message is made only while it has a subscriber.
+/// Topics of the tool in one hand for devices and machines: `wrench`, which the hand would feel; `tip_twist`, for a
+/// servo that follows the tip; `joy_feedback`, which makes a game pad vibrate; and `probe`, what the tool measures. A
+/// message is built only if it has a subscriber.
 class ToolOutput {
  public:
-  /// `frame_prefix`, `number`: what the frames of this hand begin with, and its topics and frames end in ("", "_2");
-  /// `queue`: messages that wait for a slow subscriber.
+  /// `frame_prefix`: prefix of this hand's frames; `number`: suffix of its topics and frames ("", "_2"); `queue`: queue
+  /// size for slow subscribers.
   ToolOutput(ros::NodeHandle private_node, const std::string& frame_prefix, const std::string& number,
              std::uint32_t queue);
 
-  /// Reads the tool of this hand in the simulation as the instrument that it is, and fills its averages in.
+  /// Updates this hand's instruments from the state of its tool, and fills in the averages.
   void read(const live::View& view, tools::ToolState& tool);
-  /// Fills in what was read last, for a tool that is shown.
+  /// Fills in the last averages, for a displayed tool.
   void show(tools::ToolState& tool) const { average_.fill_in(tool); }
-  /// `tool`: that of this hand, as it was read; `header`: the state's stamp, and the world frame.
+  /// Publishes the messages. `tool`: state of this hand's tool after read(); `header`: stamp of the state, world frame.
   void publish(const live::View& view, const tools::ToolState& tool, const std_msgs::Header& header);
 
  private:
@@ -39,7 +39,7 @@ class ToolOutput {
   ros::Publisher wrench_, tip_twist_, joy_feedback_, probe_;
   instruments::ReadingAverage average_;
   instruments::Vibration vibration_;
-  double vibrates_ = 0.0;  ///< intensity that was published last
+  double vibrates_ = 0.0;  ///< intensity published last
 };
 
 }  // namespace spring_workbench::machine_link

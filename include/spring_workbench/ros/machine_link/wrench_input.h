@@ -16,19 +16,20 @@
 
 namespace spring_workbench::machine_link {
 
-/// Listens to `external_wrench`, `external_wrench_2`, …: what machines' force sensors measure on what the styluses
-/// hold. Invalid messages are rejected, counted by reason and reported in one throttled line.
+/// Subscribes to `external_wrench`, `external_wrench_2`, …: measurements of machines' force sensors on the objects that
+/// the styluses hold. Invalid messages are rejected, counted by reason and reported in one throttled line.
 class WrenchInput {
  public:
-  /// `styluses`: how many; `world_frame`: the frame for wrenches in world axes; `frame_prefix`: what those of the tip
-  /// begin with; `max_age` [s]: a stamp further from now is not believed. `wake` is called when something has come.
+  /// `styluses`: number of styluses; `world_frame`: frame of wrenches in world axes; `frame_prefix`: prefix of the tip
+  /// frames; `max_age` [s]: a stamp further from now is replaced by the time of arrival. `wake` is called after each
+  /// valid message.
   WrenchInput(ros::NodeHandle private_node, std::size_t styluses, const std::string& world_frame,
               const std::string& frame_prefix, double max_age, std::function<void()> wake);
 
-  /// Adds what came since the last call.
+  /// Adds the wrenches since the last call.
   void add_to(live::HandEvents& events);
-  /// Adds a status of /diagnostics once a message has come; `timeouts`: how often the watchdog has set a wrench to zero
-  /// so far. WARN where that, or a rejection, is new since the last call.
+  /// Adds a status of /diagnostics once a message has arrived; WARN if there was a timeout or a rejection since the
+  /// last call. `timeouts`: number of times so far that the watchdog has set a wrench to zero.
   void report(int timeouts, std::vector<diagnostic_msgs::DiagnosticStatus>& statuses);
 
  private:

@@ -11,13 +11,13 @@
 
 namespace spring_workbench::manipulation {
 
-/// Keeps the checkpoint of a node `manipulation` on the parameter server under `~resume` and, if asked for, in a file.
-/// It is updated twice a second while something changes, and deleted when the node ends normally.
+/// Stores the checkpoint of a node `manipulation` on the parameter server under `~resume` and, optionally, in a file.
+/// It is updated twice a second while something changes, and deleted when the node exits normally.
 class Checkpoint {
  public:
-  /// Restores the runner from the checkpoint on the master, or else from the file. A checkpoint of another scene, or
-  /// one that cannot be restored, is reported and ignored as a whole (such a file is set aside). `master`, `disk`:
-  /// private handles of the threads that may wait for these; `file`: empty: none. For the rest see live::Checkpoint.
+  /// Restores the runner from the checkpoint on the master or, if there is none, from the file. A checkpoint of another
+  /// scene, or one that cannot be restored, is reported and ignored as a whole (a file is renamed). `master`, `disk`:
+  /// private node handles of the threads that may block on these; `file`: path or empty. Others: see live::Checkpoint.
   Checkpoint(const ros::NodeHandle& master, const ros::NodeHandle& disk, const std::string& file,
              live::SimulationRunner& runner, const std::string& given_scene,
              const std::vector<std::string>& scene_roots);

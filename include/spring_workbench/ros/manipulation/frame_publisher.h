@@ -11,9 +11,9 @@
 
 namespace spring_workbench::manipulation {
 
-/// Sends /tf of what is shown, while another node listens: each time handle and tip of each tool and the objects that
-/// have moved, and of all others in turn as many as it takes for each to be sent ten times a second, so that who comes
-/// late has them all.
+/// Publishes the displayed frames on /tf while another node subscribes: each time the handle and tip of each tool and
+/// the objects that have moved. All other objects take turns, such that each is sent ten times a second and a late
+/// subscriber gets them all.
 class FramePublisher {
  public:
   FramePublisher(ros::NodeHandle node, std::string world_frame, std::string frame_prefix);
@@ -21,27 +21,27 @@ class FramePublisher {
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
 
-  /// Nothing is sent twice for one stamp, and nothing without one.
+  /// Publishes nothing for a zero stamp, and nothing twice for one stamp.
   void publish(const live::View& view, const ros::Time& stamp);
 
  private:
   void add_tools(const live::View& view);
   void add_objects(const live::View& view);
   void name_frames(const live::View& view);
-  /// How many objects' turn it is.
+  /// Number of unmoved objects whose turn it is.
   std::size_t turns(std::size_t objects);
 
   std::string world_frame_, frame_prefix_;
-  std::atomic<std::uint32_t> own_subscriptions_{0};  ///< of this node, which takes /tf of others
+  std::atomic<std::uint32_t> own_subscriptions_{0};  ///< subscriptions of this node itself to /tf
   ros::Publisher publisher_;
-  boost::shared_ptr<tf2_msgs::TFMessage> message_;  ///< that is being made
+  boost::shared_ptr<tf2_msgs::TFMessage> message_;  ///< the message under construction
   ros::Time stamp_;
   std::shared_ptr<const scene::Scene> scene_;
-  std::vector<geometry_msgs::TransformStamped> frames_;  ///< of the objects of this scene, as they are in `sent_`
-  std::vector<RigidTransform> X_OL_;                     ///< of their frames, which are those of their links
+  std::vector<geometry_msgs::TransformStamped> frames_;  ///< frames of this scene's objects, for the states in `sent_`
+  std::vector<RigidTransform> X_OL_;  ///< poses of the objects' link frames, which are the published ones
   live::SharedStates sent_;
-  std::size_t next_ = 0;                      ///< object in turn
-  double turned_at_ = 0.0, turns_due_ = 0.0;  ///< [s], by the steady clock; with the fraction of a turn that is left
+  std::size_t next_ = 0;                      ///< the object whose turn is next
+  double turned_at_ = 0.0, turns_due_ = 0.0;  ///< time of the last turn [s, steady clock]; turns due, with a fraction
 };
 
 }  // namespace spring_workbench::manipulation

@@ -28,12 +28,12 @@
 
 namespace spring_workbench::manipulation {
 
-/// The node `manipulation`: tf and buttons in; physics in its own thread, woken by samples, on the steady clock or,
-/// under `use_sim_time`, on ROS time; states, markers and reports out, by another thread. Call the callbacks of the
-/// global queue next to it. It ends in order when it is destroyed before ros::shutdown().
+/// The node `manipulation`. Subscribes to tf and buttons, runs the physics in its own thread (woken by samples; on the
+/// steady clock or, under `use_sim_time`, on ROS time), and publishes states, markers and reports from another thread.
+/// The caller has to spin the global callback queue. For an orderly exit, destroy it before ros::shutdown().
 class ManipulationNode {
  public:
-  /// Reads parameters and scene. Throws InputError when one cannot be used.
+  /// Reads parameters and scene. Throws InputError if one is invalid.
   ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& private_node);
   ~ManipulationNode();
   ManipulationNode(const ManipulationNode&) = delete;
@@ -44,7 +44,7 @@ class ManipulationNode {
   bool run_step(double begin);
   std::deque<StylusInput> listen(const ros::NodeHandle& node);
   void count(const live::CycleReport& report, bool deadline_missed);
-  void on_every_second(const ros::SteadyTimerEvent&);
+  void publish_diagnostics(const ros::SteadyTimerEvent&);
   void place_workbench();
   void describe_scene();
 

@@ -13,19 +13,19 @@
 
 namespace spring_workbench::manipulation {
 
-/// ObjectStates messages in the bytes that go over the line. The bytes of the last messages are kept, and once roscpp
-/// has sent them, the header and the objects that have changed since are written over them: nothing else is copied.
+/// Serialised ObjectStates messages. The buffers of the last messages are kept; once roscpp has sent one, only the
+/// header and the changed objects are overwritten for the next message.
 class ObjectsMessage {
  public:
   void write(const std_msgs::Header& header, const live::SharedStates& objects);
-  /// As serializeMessage() gives it, without a copy.
+  /// The message as from serializeMessage(), without a copy.
   ros::SerializedMessage serialised() const;
 
  private:
   struct Bytes {
     std::shared_ptr<std::vector<std::uint8_t>> all = std::make_shared<std::vector<std::uint8_t>>();
     live::SharedStates written;
-    std::vector<std::size_t> ends;  ///< of the parts' bytes
+    std::vector<std::size_t> ends;  ///< end of the bytes of each part
     void write(const std_msgs::Header& header, const live::SharedStates& objects);
   };
   std::array<Bytes, 3> kept_;
@@ -34,7 +34,7 @@ class ObjectsMessage {
 
 }  // namespace spring_workbench::manipulation
 
-// For roscpp it is an ObjectStates.
+// Makes roscpp treat it as an ObjectStates message.
 namespace ros::message_traits {
 
 using spring_workbench::ObjectStates;

@@ -13,32 +13,32 @@
 
 namespace spring_workbench::manipulation {
 
-/// Takes states from the physics loop, and has a thread of its own make and send their messages: the loop does not wait
-/// for them, unless a thousand states are unsent. Every committed state is sent, in order; of the displayed ones, the
-/// newest. What has not changed is sent again ten times a second.
+/// Builds and publishes the messages of the physics loop's states in a separate thread, so that the loop waits only if
+/// a thousand states are unsent. Every committed state is sent, in order; of the displayed states only the newest. An
+/// unchanged state is repeated ten times a second.
 class Outbox {
  public:
-  /// `publisher` and `runner` must outlive it, and nobody else may use `publisher`.
+  /// `publisher` and `runner` must outlive this object, and nothing else may use `publisher`.
   Outbox(StatePublisher& publisher, live::SimulationRunner& runner);
-  /// Sends what waits, and stops.
+  /// Sends the waiting states and stops the thread.
   ~Outbox();
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
 
-  /// Takes the displayed state, if it is due; the loop's thread. `local_time` [s]: now. See SimulationRunner::show().
+  /// Takes the displayed state, if it is due. To be called from the loop's thread; see SimulationRunner::show().
   void take_shown(double latency, const hand_input::LocalTime& now);
-  /// Takes the committed state, if it is due; the loop's thread. `report`: of the cycle that led to it; `deadline` [s]:
-  /// of this cycle, in local time. Returns whether it was. Nothing is due between the first sample and the simulation's
-  /// first step to it.
+  /// Takes the committed state, if it is due, and returns whether it was. To be called from the loop's thread.
+  /// `report`: of the cycle that led to it; `deadline`: of this cycle, in local time [s]. Nothing is due between the
+  /// first sample and the simulation's first step to it.
   bool take_committed(const live::CycleReport& report, double deadline);
 
-  /// Cycles so far whose messages were sent after their deadline.
+  /// Number of cycles whose messages were sent after the deadline.
   std::size_t deadlines_missed() const { return deadlines_missed_; }
-  /// How often the loop has waited because too many states were unsent.
+  /// Number of times that the loop had to wait because too many states were unsent.
   std::size_t waits();
 
  private:
-  /// Whether something has to be sent again, or for the first time.
+  /// Decides whether a state has to be sent, for the first time or again.
   struct Repeat {
     ros::Time stamp;
     std::size_t revision = 0;
@@ -51,7 +51,7 @@ class Outbox {
   live::SimulationRunner& runner_;
   Repeat shown_due_, committed_due_;
   std::mutex mutex_;
-  std::condition_variable bell_;
+  std::condition_variable condition_;
   std::optional<ShownState> shown_;          ///< not sent yet
   live::Backlog<CommittedState> committed_;  ///< not sent yet
   std::atomic<std::size_t> deadlines_missed_{0};

@@ -14,12 +14,12 @@
 
 namespace spring_workbench::manipulation {
 
-/// A committed state to be sent, and what the cycle did that led to it.
+/// A committed state to be sent, with the report of the cycle that led to it.
 struct CommittedState {
   live::Committed committed;
   ros::Time stamp;
   live::CycleReport report;
-  double deadline = 0.0;  ///< of the cycle, in local time [s]
+  double deadline = 0.0;  ///< deadline of the cycle, in local time [s]
 };
 
 /// A displayed state to be sent.
@@ -29,27 +29,27 @@ struct ShownState {
   double local_time = 0.0;  ///< [s]
 };
 
-/// Sends the committed simulation, to be recorded (~objects, ~contacts, ~steps, ~task, and of each stylus ~fork,
-/// ~wrench, ~tip_twist, ~joy_feedback and ~probe), the journal (~accepted, ~changes), and what is shown, to be looked
-/// at (/tf, ~display/objects, ~display/fork of each stylus, ~markers, ~display/markers). Messages are made only while
-/// there is a subscriber.
+/// Publishes the committed simulation for recording (~objects, ~contacts, ~steps, ~task, and for each stylus ~fork,
+/// ~wrench, ~tip_twist, ~joy_feedback and ~probe), the journal (~accepted, ~changes), and the displayed state for
+/// viewing (/tf, ~display/objects, ~display/fork of each stylus, ~markers, ~display/markers). A message is built only
+/// if it has a subscriber.
 class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
 
-  /// `publish_time` [s]: how long the messages before these took.
+  /// `publish_time` [s]: time that publishing the previous messages took.
   void publish(const CommittedState& state, double publish_time);
   void publish(ShownState state);
-  /// The journal, while both of its topics have a subscriber.
+  /// Publishes the journal while both of its topics have a subscriber.
   void publish_journal(live::SimulationRunner& runner);
 
  private:
-  /// What is sent of one stylus; the topics and frames of the second end in _2, and so on.
+  /// Publishers for one stylus. The topics and frames of the second stylus end in _2, and so on.
   struct HandTopics {
     ros::Publisher fork, shown_fork;
     machine_link::ToolOutput output;
   };
-  /// What is sent of all objects; of what was sent before, what has not changed since is still there.
+  /// Publisher for all objects; the message keeps the unchanged objects of the previous one.
   struct ObjectsTopic {
     ros::Publisher publisher;
     ObjectsMessage message;
@@ -62,7 +62,7 @@ class StatePublisher {
   std::string world_frame_;
   double horizon_ = 0.0;
   bool had_contacts_ = false;
-  bool markers_were_built_ = false;  ///< with the last shown state
+  bool markers_were_built_ = false;  ///< whether markers were built with the last displayed state
   double fork_diameter_;
   markers::MarkerPublisher markers_;
   FramePublisher frames_;

@@ -11,24 +11,24 @@
 
 namespace spring_workbench::manipulation {
 
-/// A frame's name without the leading slash of old.
+/// The name of a frame without the leading slash that older software uses.
 std::string frame(const std::string& name);
-/// Where a transform stands, for a message about it.
+/// Names a transform by its frames, for messages about it.
 std::string place(const std::string& parent, const std::string& child);
-/// A transform as it came, as the gate takes it; `t` [s].
+/// Converts a transform to a sample for the gate, with the stamp `t` [s].
 hand_input::RawSample raw_sample(const geometry_msgs::Transform& T, double t);
 
-/// Where the frames of /tf_static are in the world; the workbench is the world until one says otherwise.
+/// Poses in the world of the frames on /tf_static. The workbench is the world frame until a message says otherwise.
 class StaticFrames {
  public:
   StaticFrames(const std::string& world, const std::string& workbench);
 
-  /// Takes a transform; what is wrong with one that cannot be used, as reason and line, else nothing.
+  /// Adds a transform. If it cannot be used, returns a reason and a one-line description; otherwise nothing.
   std::optional<std::pair<std::string, std::string>> take(const geometry_msgs::TransformStamped& transform,
                                                           const hand_input::InputSettings& rules);
-  /// Pose in the world of a frame (world itself: the identity); nothing where no way there is known.
+  /// Pose of a frame in the world (the identity for the world itself); nothing if no chain of transforms leads there.
   std::optional<RigidTransform> in_world(const std::string& parent) const;
-  /// Whether a message said where the workbench is.
+  /// Whether a message has given the pose of the workbench.
   bool workbench_known() const { return workbench_known_; }
 
  private:

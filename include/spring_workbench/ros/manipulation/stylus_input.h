@@ -28,30 +28,30 @@ using ros_common::SimulatedClock;
 
 /// Statistics of the input so far.
 struct InputStatistics {
-  std::size_t messages = 0;                     ///< on /tf, except those of this node
-  std::set<std::string> frames;                 ///< child frames in them
-  std::size_t restarts = 0;                     ///< times simulated time jumped back
-  std::size_t clock_steps = 0;                  ///< times the sender's clock was set
-  std::string sender;                           ///< the node whose stylus is followed; empty before the first
-  std::string other_sender;                     ///< another node that sends the same stylus and is ignored; or empty
+  std::size_t messages = 0;      ///< messages on /tf, except those from this node
+  std::set<std::string> frames;  ///< child frames in them
+  std::size_t restarts = 0;      ///< number of times that simulated time jumped back
+  std::size_t clock_steps = 0;   ///< number of times that the sender's clock was set
+  std::string sender;            ///< the node whose stylus is followed; empty before the first message
+  std::string other_sender;      ///< another node that sends the same stylus and is ignored; empty if there is none
   std::map<std::string, std::size_t> rejected;  ///< by reason
-  double newest_offer_age = 0.0;                ///< age by its stamp of the newest sample, used or not [s]
+  double newest_offer_age = 0.0;  ///< age, by its stamp, of the newest sample, whether or not it was used [s]
 };
 
 /// Reasons to reject messages: of a second sender, and while the loop is stalled.
-constexpr char another_sender[] = "another sender", loop_stands[] = "the loop stands";
+constexpr char another_sender[] = "another sender", loop_stalled[] = "the loop is stalled";
 
 /// Input of one stylus: subscribes to /tf, /tf_static and its buttons, and queues the events until they are taken.
-/// Unusable messages are rejected, counted by reason and logged in one throttled line. Poses are not filtered here: the
-/// gate is in the Feed.
+/// Unusable messages are rejected, counted by reason and logged in one throttled line. Poses are not filtered here; the
+/// outlier gate is in the Feed.
 class StylusInput {
  public:
-  /// Listens to the child frame `stylus` and to `stylus/joy`, or those of a further `hand` (button 0 grasps while it is
-  /// down, 1 takes the next tool). `wake` is called after each event.
+  /// Subscribes to the child frame `stylus` and to `stylus/joy`, or to those of a further `hand` (button 0 grasps while
+  /// it is down, button 1 selects the next tool). `wake` is called after each event.
   StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::size_t hand,
               std::function<void()> wake);
 
-  /// Returns the events since the last call. The first event ever, and the first after simulated time has jumped back,
+  /// Returns the events since the last call. The very first event, and the first after simulated time has jumped back,
   /// is a live::NewEpoch.
   std::vector<live::StylusEvent> take_events();
   /// Counts and logs the poses that the gate rejected.
@@ -71,7 +71,7 @@ class StylusInput {
   void on_simulated_time(const sensor_msgs::Joy& message, const ros::Time& now);
   void on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp);
   template <typename Message>
-  void go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early);
+  void advance_stream(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early);
   void restart_when_due();
   double seconds(std::int64_t stamp);
   void reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason, double age);
@@ -82,19 +82,19 @@ class StylusInput {
   mutable std::mutex mutex_;
   StaticFrames static_frames_;
   motion::SenderChoice sender_;
-  // Of wall time.
+  // For wall time.
   motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;
   std::int64_t host_steps_ = 0;  ///< of this host's wall clock at the newest message [ns]
   motion::StreamClock wall_buttons_;
   live::Inbox<live::StylusEvent> events_;
   InputStatistics statistics_;
-  // Of simulated time.
+  // For simulated time.
   EarlyMessages<geometry_msgs::TransformStamped> early_poses_;
   EarlyMessages<sensor_msgs::Joy> early_buttons_;
   SimulatedClock::Stream poses_, buttons_;
   SimulatedClock clock_;
   ros_common::Rejections rejections_;
-  std::int64_t zero_ = 0;  ///< of the epoch, in local time [ns]; 0 before the first input
+  std::int64_t zero_ = 0;  ///< epoch in local time [ns]; 0 before the first input
   bool pressed_ = false, next_tool_ = false, clutch_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };

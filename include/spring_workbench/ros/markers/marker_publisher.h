@@ -8,14 +8,14 @@
 
 namespace spring_workbench::markers {
 
-/// Sends `~markers` (everything) and `~display/markers` (what the displays of rviz leave to markers), each while it has
-/// a subscriber.
+/// Publishes `~markers` (everything) and `~display/markers` (what the rviz displays leave to markers), each while it
+/// has a subscriber.
 class MarkerPublisher {
  public:
-  /// `fork_curve`, `fork_diameter`: see MarkerBuilder. `rate` [Hz]: the most of each topic.
+  /// `fork_curve`, `fork_diameter`: see MarkerBuilder. `rate`: maximum rate of each topic [Hz].
   MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double fork_diameter, double rate);
 
-  /// Returns whether markers were due at `now` [s], local time, and made.
+  /// Returns whether markers were due at the local time `now` [s] and were built.
   bool publish(const live::View& view, const std_msgs::Header& header, double now);
 
  private:

@@ -10,20 +10,20 @@
 
 namespace spring_workbench::markers {
 
-/// The scene as a message, without its header: its bodies where they start, each mesh once.
+/// The scene as a message without header: its bodies at their start poses, each mesh once.
 SceneDescription describe(const scene::Scene& scene);
 
-/// Keeps the latched topic `~scene_description` as the scene is.
+/// Keeps the latched topic `~scene_description` up to date.
 class ScenePublisher {
  public:
   ScenePublisher(ros::NodeHandle private_node, std::string world_frame);
 
-  /// Sends it if it is another than the one that was sent last.
+  /// Publishes the scene if it differs from the last one published.
   void keep(const std::shared_ptr<const scene::Scene>& scene);
 
  private:
   std::string world_frame_;
-  std::shared_ptr<const scene::Scene> seen_, sent_;
+  std::shared_ptr<const scene::Scene> last_checked_, sent_;
   ros::Publisher publisher_;
 };
 

@@ -5,21 +5,21 @@
 
 namespace spring_workbench::register_tracker {
 
-/// What the command line asks for.
+/// Options of the command line.
 struct Options {
-  bool pivot = false;  ///< finds the tip, else the tracker
+  bool pivot = false;  ///< whether to find the tip instead of the tracker
   std::string landmarks, motion, registration, out;
   double largest_residual = 5e-3;  ///< [m]
 };
 
-/// Nothing where help is asked for. Throws InputError for everything that cannot be used.
+/// Parses the command line. Returns nothing for `--help`. Throws InputError for invalid arguments.
 std::optional<Options> parse_options(int argc, char** argv);
 
-/// What `--help` prints.
+/// The text that `--help` prints.
 std::string help_text();
 
-/// Finds the tracker or the tip from a motion file, or, as a ROS node, from what the running driver sends; writes the
-/// file. Throws InputError for what is given or touched and cannot be used; nothing is written then.
+/// Finds the tracker or the tip from a motion file or, as a ROS node, from the output of the running driver, and writes
+/// the result to a file. Throws InputError, and writes nothing, if options or touches are unusable.
 void run(const Options& options, int argc, char** argv);
 
 }  // namespace spring_workbench::register_tracker

@@ -12,33 +12,33 @@ namespace spring_workbench::tracker_driver {
 
 /// How a game pad or a 3D mouse moves the stylus.
 struct JoySettings {
-  std::array<int, 6> axes = {0, 1, 2,
-                             3, 4, 5};  ///< `axes`: numbers of those for x y z and turning about x y z; −1: none
-  double move_speed = 0.25;             ///< `move_speed` [m/s] at full deflection, 0 … 2
-  double turn_speed = 1.0;              ///< `turn_speed` [rad/s] at full deflection, 0 … 10
-  double dead_zone = 0.1;               ///< `dead_zone`, 0 … 0.9 of full deflection: counts as none
-  int grasp_button = 0;                 ///< `grasp_button`: grasp while held; −1: none
-  int tool_button = 1;                  ///< `tool_button`: next tool; −1: none
-  int clutch_button = 2;                ///< `clutch_button`: the hand moves without its tool while held; −1: none
+  std::array<int, 6> axes = {
+      0, 1, 2, 3, 4, 5};     ///< `axes`: numbers of the axes for moving along x y z and turning about x y z; −1: none
+  double move_speed = 0.25;  ///< `move_speed` [m/s] at full deflection, 0 … 2
+  double turn_speed = 1.0;   ///< `turn_speed` [rad/s] at full deflection, 0 … 10
+  double dead_zone = 0.1;    ///< `dead_zone`, 0 … 0.9 of full deflection: smaller deflections count as zero
+  int grasp_button = 0;      ///< `grasp_button`: grasp while held; −1: none
+  int tool_button = 1;       ///< `tool_button`: next tool; −1: none
+  int clutch_button = 2;     ///< `clutch_button`: the hand moves without its tool while held; −1: none
 };
 
 /// The keys of read_joy_settings.
 const std::vector<std::string>& joy_keys();
-/// From a map; other keys are not looked at. Throws InputError with `where`, key, value and rule.
+/// Reads the settings from a map; ignores other keys. Throws InputError with `where`, key, value and rule.
 JoySettings read_joy_settings(const YAML::Node& map, const std::string& where);
 
-/// The stylus B moved by axes: each gives a velocity along or about an axis of the workbench W, in proportion to its
-/// deflection beyond the dead zone.
+/// A stylus frame B moved by joystick axes: each axis gives a velocity along or about an axis of the workbench W,
+/// proportional to the deflection beyond the dead zone.
 class JoyMotion {
  public:
-  static constexpr double reach = 2.0;    ///< [m] to each side of the workbench's origin, beyond which it does not go
-  static constexpr double timeout = 0.5;  ///< [s] without input after which it stands still
+  static constexpr double reach = 2.0;    ///< [m]; largest coordinate, to each side of the workbench's origin
+  static constexpr double timeout = 0.5;  ///< [s] without input after which the stylus stops
 
   JoyMotion(const JoySettings& settings, const RigidTransform& X_WB) : settings_(settings), X_WB_(X_WB) {}
 
-  /// Deflections, −1 … 1 (what is beyond is cut, what is not finite or missing counts as none), and buttons.
+  /// Sets deflections, −1 … 1 (clamped; missing or non-finite ones count as zero), and buttons.
   void input(const std::vector<float>& axes, const std::vector<int>& buttons);
-  /// X_WB `dt` [s] ≥ 0 later.
+  /// Advances by `dt` [s] ≥ 0 and returns X_WB.
   const RigidTransform& advance(double dt);
   bool grasp() const { return grasp_; }
   bool next_tool() const { return next_tool_; }

@@ -8,9 +8,9 @@
 
 namespace spring_workbench::tracker_driver {
 
-/// Returns why a sample of this `source` (see TrackerParameters) cannot be sent as a transform; empty if it can. The
-/// receiver of a FASTRAK is never inside its transmitter, so a pose that is exactly the identity means that it is out
-/// of view.
+/// Returns why a sample from this `source` (see TrackerParameters) cannot be sent as a transform; empty if it can. The
+/// receiver of a FASTRAK is never inside its transmitter, so a pose that is exactly the identity means that the
+/// receiver is out of view.
 std::string why_not_sent(const motion::StationSample& sample, const std::string& source);
 
 /// Runs the node `tracker_driver` until shutdown. It plays a motion once, or repeatedly with `loop`, or passes on the

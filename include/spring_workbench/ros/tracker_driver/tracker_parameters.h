@@ -13,7 +13,7 @@
 
 namespace spring_workbench::tracker_driver {
 
-/// Before the bench and above it, the x axis towards 0.1 m above its middle, y to the left.
+/// Default head pose: in front of and above the bench, x axis towards a point 0.1 m above its centre, y to the left.
 inline RigidTransform head_before_the_bench() {
   const Vector3d p(0.0, -0.85, 0.7), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
   Matrix3d R;
@@ -27,9 +27,9 @@ struct TrackerParameters {
   std::string file;   ///< `file`, of motion_file and scripted, required: path or package:// URI of the motion or script
   std::string scene;  ///< `scene`, required by operator: URDF of the scene to assemble
   int seed = 1;       ///< `seed` of the operator, 0 … 1e9
-  double rate = 0.0;  ///< `rate` [Hz], >= 0: the most that is sent; 0: every sample
+  double rate = 0.0;  ///< `rate` [Hz], >= 0: maximum rate of samples sent; 0: every sample
   double speed = 1.0;                         ///< `speed`, 0.01 … 100: 2 plays twice as fast
-  bool loop = false;                          ///< `loop`: from the start again after the last sample
+  bool loop = false;                          ///< `loop`: whether to restart after the last sample
   double pause = 1.0;                         ///< `pause` [s], >= 0: before each pass
   std::string workbench_frame = "workbench";  ///< `workbench_frame`: parent of the frames
   std::string stylus_frame = "stylus";        ///< `stylus_frame`
@@ -37,12 +37,13 @@ struct TrackerParameters {
   RigidTransform X_BT =
       RigidTransform::Identity();  ///< `offset` (x y z qx qy qz qw): the recording's base frame in the workbench
   std::optional<RigidTransform>
-      X_BS_first;  ///< `start` (x y z qx qy qz qw): where the first sample lies; of a motion, instead of `offset`
-  std::vector<int> head_stations;  ///< `head_stations` of a FASTRAK: those on heads, of 2 … 4; none: the head rests
+      X_BS_first;  ///< `start` (x y z qx qy qz qw): pose of a motion's first sample, instead of `offset`
+  std::vector<int> head_stations;  ///< `head_stations`: FASTRAK stations worn on heads, 2 … 4; empty: a fixed head
   RigidTransform X_BHead =
       head_before_the_bench();  ///< `head` (pose); with head_stations in the frame of each receiver
-  double grasp_from = std::numeric_limits<double>::infinity();   ///< `grasp_from` [s]: the button goes down …
-  double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up; adds to the file's
+  double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
+  double grasp_until =
+      std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up; in addition to the file's button
   Vector3d p_ST = Vector3d::Zero();  ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
   double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
   double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: rate and jitter leave longer gaps out

@@ -1,4 +1,4 @@
-// The only file of `replay` that knows ROS: bags are read through rosbag's own library, which needs no master.
+// The only file of `replay` that depends on ROS: bags are read with the rosbag library, which needs no master.
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/Joy.h>
@@ -27,10 +27,10 @@
 namespace spring_workbench::replay {
 namespace {
 
-/// Frame and topic names with and without a leading slash are the same.
+/// Removes a leading slash from the name of a frame or topic.
 std::string bare(const std::string& name) { return !name.empty() && name[0] == '/' ? name.substr(1) : name; }
 
-/// Correctly rounded, so that a bag and a motion file with the same stamps give the same bits.
+/// Correctly rounded, so that a bag and a motion file with the same stamps give bit-identical times.
 double seconds_between(const ros::Time& from, const ros::Time& to) {
   const auto nanoseconds = [](const ros::Time& time) {
     return static_cast<std::int64_t>(time.sec) * 1'000'000'000 + static_cast<std::int64_t>(time.nsec);
@@ -80,7 +80,7 @@ live::Entry to_entry(const Change& message) {
   return {message.index, message.committed, std::nullopt, change};
 }
 
-/// The hand, from 0, that a name is of: `first`, or `first`_2 and so on; none for any other.
+/// The number, from 0, of the hand that a name belongs to: `first`, `first`_2 and so on; none for any other name.
 std::optional<std::size_t> hand_of(const std::string& name, const std::string& first) {
   if (name == first) return 0;
   if (name.rfind(first + "_", 0) != 0) return std::nullopt;
@@ -192,13 +192,13 @@ class BagReader {
   std::string path_, parent_, child_;
   std::size_t clutch_button_;
   std::map<std::size_t, Hand> hands_;
-  std::set<std::string> own_types_;  ///< of messages, that were seen
-  std::set<std::string> pairs_;      ///< all that are in the bag, for the message
+  std::set<std::string> own_types_;  ///< types of our messages found so far
+  std::set<std::string> pairs_;      ///< all pairs of frames in the bag, for the error message
 };
 
 }  // namespace
 
-/// Calls `read`. rosbag, ros::serialization and the decompressors have a family of exceptions each.
+/// Calls `read` and converts exceptions: rosbag, ros::serialization and the decompressors each have their own.
 template <typename Read>
 auto reading(const std::string& path, Read&& read) {
   try {

@@ -7,7 +7,7 @@
 namespace spring_workbench::services {
 namespace {
 
-/// What the simulation has now; of the forks, the first hand's.
+/// Copies the present settings of the simulation, with those of the first hand's fork.
 void take_from(const simulation::Simulation& simulation, ManipulationConfig& config) {
   const rod::ForkSettings& fork = simulation.fork_settings();
   config.stretch = fork.dofs.stretch;
@@ -28,26 +28,26 @@ std::optional<T> if_other(const T& asked, const T& present) {
   return asked == present ? std::nullopt : std::optional<T>(asked);
 }
 
-/// The change that the configuration asks for, of all forks. Throws InputError for a bad one.
+/// The change of all forks that the configuration requests. Throws InputError if it is invalid.
 live::Command command_for(const simulation::Simulation& simulation, const ManipulationConfig& config) {
   const rod::ForkSettings& fork = simulation.fork_settings();
   const dynamics::DynamicsSettings& dynamics = simulation.settings().dynamics;
   const rod::PerDof damping{config.stretch_damping, config.bend_damping, config.torsion_damping};
   live::Command command;
   command.kind = live::Command::Kind::settings;
-  simulation::ForkChange& of_fork = command.of_fork;
-  of_fork.dofs = if_other<rod::ForkDofs>({config.stretch, config.bend, config.torsion}, fork.dofs);
-  of_fork.stretch_stiffness = if_other(config.stretch_stiffness, fork.stiffness.stretch);
-  of_fork.bend_stiffness = if_other(config.bend_stiffness, fork.stiffness.bend);
-  of_fork.torsion_stiffness = if_other(config.torsion_stiffness, fork.stiffness.torsion);
-  of_fork.damping_ratio = if_other(damping, fork.damping_ratio);
+  simulation::ForkChange& fork_change = command.fork_change;
+  fork_change.dofs = if_other<rod::ForkDofs>({config.stretch, config.bend, config.torsion}, fork.dofs);
+  fork_change.stretch_stiffness = if_other(config.stretch_stiffness, fork.stiffness.stretch);
+  fork_change.bend_stiffness = if_other(config.bend_stiffness, fork.stiffness.bend);
+  fork_change.torsion_stiffness = if_other(config.torsion_stiffness, fork.stiffness.torsion);
+  fork_change.damping_ratio = if_other(damping, fork.damping_ratio);
   const bool one_ratio = damping == rod::PerDof{damping.stretch, damping.stretch, damping.stretch};
-  if (of_fork.damping_ratio && !one_ratio)
-    of_fork.damping_law = rod::DampingLaw::per_dof;  // modal knows one ratio alone
-  simulation::DynamicsChange& of_dynamics = command.of_dynamics;
-  of_dynamics.integrator = if_other(
+  if (fork_change.damping_ratio && !one_ratio)
+    fork_change.damping_law = rod::DampingLaw::per_dof;  // modal has a single ratio
+  simulation::DynamicsChange& dynamics_change = command.dynamics_change;
+  dynamics_change.integrator = if_other(
       validation::named<dynamics::IntegratorKind>(config.integrator, "live", "integrator"), dynamics.integrator);
-  of_dynamics.step = if_other(config.step, dynamics.step);
+  dynamics_change.step = if_other(config.step, dynamics.step);
   return command;
 }
 
@@ -62,7 +62,7 @@ class Reconfigure final : public LiveTuning {
   }
 
  private:
-  static constexpr uint32_t at_start = ~uint32_t{0};  ///< the server's level for what it read from old parameters
+  static constexpr uint32_t at_start = ~uint32_t{0};  ///< level with which the server reports old parameters
 
   void on_change(ManipulationConfig& config, uint32_t level) {
     try {
@@ -76,7 +76,7 @@ class Reconfigure final : public LiveTuning {
     published_ = config;
   }
 
-  /// Reports changes that did not come from here.
+  /// Reports changes that were made elsewhere.
   void follow() {
     ManipulationConfig now = published_;
     runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, now); });

@@ -1,4 +1,4 @@
-// A message of spring_workbench with what a simulation of its library says.
+// Fills a message of spring_workbench with the result of a simulation by its library.
 #include <spring_workbench/ForkState.h>
 #include <spring_workbench/spring_workbench.h>
 
