@@ -1,5 +1,5 @@
-// A fork at work step by step, for counting the instructions of Simulation::advance, or of a copy that looks ahead:
-// scripts/count_instructions runs it.
+// A fork in use, step by step; scripts/count_instructions counts the instructions of Simulation::advance with it, or of
+// a copy that looks ahead.
 #include <cmath>
 #include <cstdlib>
 #include <iostream>

@@ -23,11 +23,11 @@
 
 // End-to-end latency: from the first byte of a record on the serial line to the arrival of the first object poses that
 // are computed from it, on `manipulation/objects` (committed) and on `manipulation/display/objects` (displayed). The
-// device of this program moves the hands uniformly along x, so the x of the handle on the topic `fork` of the same
-// stamp says which record a message knows of; only this process' own clock is read. For comparison, the time that a
-// message of the same rate takes to a node that only sends it back. With ~pixel, the fork is rigid and the object a
-// ruler, which rviz shows from above on the X display of this process; a thread reads the pixels. doc/tracker.md,
-// "Latency".
+// device of this program moves the hands uniformly along x, so the x of the handle in the message of the same stamp on
+// the topic `fork` identifies the newest record in a message; only the clock of this process is used. For comparison,
+// the round trip of a message of the same rate to a node that only sends it back is measured. With ~pixel, the fork is
+// rigid and the object a ruler, which rviz shows from above on the X display of this process; a thread reads the
+// pixels. See doc/tracker.md, "Latency".
 
 namespace {
 
@@ -49,7 +49,7 @@ simulated_fastrak::PlayedMotion travel(double length) {
   return simulated_fastrak::PlayedMotion(samples);
 }
 
-/// When object poses arrived, and where the handles were of which they were computed.
+/// Arrival times of object poses, and the positions of the handles from which these were computed.
 class Observer {
  public:
   /// `prefix`: of the topics `objects`, `fork` and `fork_2`.
@@ -70,7 +70,7 @@ class Observer {
     return holder_;
   }
   /// The handle's x at the arrival of the poses with the same stamp.
-  std::vector<Moment> seen(int hand) const {
+  std::vector<Moment> observed(int hand) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::vector<Moment> moments;
     for (const auto& [stamp, x] : handles_.at(static_cast<std::size_t>(hand - 1))) {
@@ -149,12 +149,13 @@ void add_row(std::ostream& out, const std::string& run, const std::string& end, 
   out << std::endl;
 }
 
-/// From the records to what was seen of them; throws std::runtime_error if that did not go with the hand.
-std::vector<double> latencies_of(const std::vector<Moment>& written, const std::vector<Moment>& seen, double length) {
-  const double way = kSpeed * length;  // [m]
-  if (seen.empty() || seen.back().x - seen.front().x < 0.9 * way)
-    throw std::runtime_error("what was seen did not go with the hand");
-  return latencies(written, seen, seen.back().x - (0.3 + way));  // in the end all are at rest
+/// Latencies from the records to their observations. Throws std::runtime_error if these did not move with the hand.
+std::vector<double> latencies_of(const std::vector<Moment>& written, const std::vector<Moment>& observed,
+                                 double length) {
+  const double travel = kSpeed * length;  // [m]
+  if (observed.empty() || observed.back().x - observed.front().x < 0.9 * travel)
+    throw std::runtime_error("the observed object did not move with the hand");
+  return latencies(written, observed, observed.back().x - (0.3 + travel));  // at the end everything is at rest
 }
 
 /// Rows on what rviz showed: latency, records whose pose was never shown, time between two frames; or that the ruler
@@ -199,13 +200,13 @@ int main(int argc, char** argv) {
   simulated_fastrak::FastrakSimulator simulator(simulated_fastrak::FastrakDevice(motions, {1, 2}),
                                                 simulated_fastrak::LineFaults(), port);
   Playing playing{rate, stations, 1, kSettle, kSettle + length, 2.0 * kSettle + length};
-  const double latest = steady_now() + kPatience;
+  const double latest = steady_now() + kTimeout;
   try {
     const auto pixels = parameters.param("pixel", false) ? std::make_unique<PixelObserver>(Ruler()) : nullptr;
     const auto held = [&] {
       const int holder = committed.holder();  // the hand that is there first
       if (holder > 0) playing.counted = holder;
-      const bool shown = !pixels || !pixels->seen().empty() || steady_now() > latest;
+      const bool shown = !pixels || !pixels->observed().empty() || steady_now() > latest;
       return !ros::ok() || (shown && holder > 0 && displayed.holder() == holder);
     };
     const std::vector<Moment> written = play(simulator, motion, playing, held);
@@ -213,9 +214,10 @@ int main(int argc, char** argv) {
     std::ostringstream run;
     run << rate << "," << hands << "," << stations;
     add_row(out, run.str(), "bare loop", bare.latencies());
-    if (!pixels) add_row(out, run.str(), "committed", latencies_of(written, committed.seen(playing.counted), length));
-    add_row(out, run.str(), "displayed", latencies_of(written, displayed.seen(playing.counted), length));
-    if (pixels) add_pixels(out, run.str(), written, pixels->seen(), length);
+    if (!pixels)
+      add_row(out, run.str(), "committed", latencies_of(written, committed.observed(playing.counted), length));
+    add_row(out, run.str(), "displayed", latencies_of(written, displayed.observed(playing.counted), length));
+    if (pixels) add_pixels(out, run.str(), written, pixels->observed(), length);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "latency: " << error.what() << std::endl;

@@ -14,8 +14,8 @@ constexpr double settling = 0.7;
 constexpr double plot_duration = 10.0;
 /// Number of positions of a logarithmic slider. If fewer, values are coarser. Test: none: appearance.
 constexpr int slider_positions = 1000;
-/// [s] from the end of rviz' windows until it ends without the ROS master's leave. Longer: with a master that hangs,
-/// rviz is there for longer; much shorter: it ends while it still frees things. Test:
+/// Time from closing rviz's windows until it exits without waiting for the ROS master [s]. If longer, rviz exits later
+/// when the master hangs; if much shorter, it exits while it still frees resources. Test:
 /// rviz_recovery_test.py::test_rviz_ends_while_the_master_hangs at 600.
 constexpr double exit_timeout = 5.0;
 

@@ -70,7 +70,7 @@ void ErrorPlot::paintEvent(QPaintEvent*) {
   for (auto point = points_.rbegin(); point != points_.rend(); ++point) {
     const QPointF place = at(times.place(point->wall_time), errors.place(point->error));
     if (!painted.emplace(qRound(place.x()), qRound(place.y())).second) continue;
-    const double fade = std::clamp(1.0 - (now_ - point->t) / kept_for, 0.1, 1.0);
+    const double fade = std::clamp(1.0 - (now_ - point->t) / plot_duration, 0.1, 1.0);
     painter.setBrush(QColor(90, 190, 250, static_cast<int>(255.0 * fade)));
     painter.drawEllipse(place, 1.5, 1.5);
   }

@@ -51,7 +51,7 @@ class ForkDisplay : public rviz::Display {
 
   rviz::RosTopicProperty* topic_;
   std::map<std::string, Fork> forks_;                                   ///< by topic
-  std::shared_ptr<const ros_common::MasterWatch::Answer> last_answer_;  ///< whose topics are listened to
+  std::shared_ptr<const ros_common::MasterWatch::Answer> last_answer_;  ///< the answer whose topics are subscribed to
 };
 
 }  // namespace spring_workbench::rviz_plugin

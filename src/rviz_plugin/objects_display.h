@@ -46,10 +46,10 @@ class ObjectsDisplay : public rviz::Display {
 
   rviz::RosTopicProperty *topic_, *scene_topic_;
   ros::Subscriber objects_subscriber_, scene_subscriber_;
-  SceneDescriptionConstPtr scene_;  ///< not yet built
-  ObjectStatesConstPtr newest_;     ///< not yet drawn
-  std::string frame_;               ///< of the poses; empty: nothing is shown
-  double silence_ = 0.0;            ///< since the newest message that could be drawn [s]
+  SceneDescriptionConstPtr scene_;  ///< not built yet
+  ObjectStatesConstPtr newest_;     ///< not drawn yet
+  std::string frame_;               ///< frame of the poses; empty: nothing is shown
+  double silence_ = 0.0;            ///< time since the newest valid message [s]
   std::unique_ptr<SceneObjects> objects_;
 };
 

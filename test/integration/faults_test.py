@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The stack while things go wrong: nodes killed and started again, a subscriber that does not
-read, a full disk, a stopped processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
+"""The stack under faults: nodes killed and restarted, a subscriber that does not read, a full disk, a stopped
+processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
 import ctypes
 import io
 import os

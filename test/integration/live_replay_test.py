@@ -196,8 +196,8 @@ class Services:
 
 
 def options_of(seed):
-    """Eight seeds in a row have each combination of rate, subscribers besides the recorder, and prediction once; the
-    first three have both values of each."""
+    """Eight consecutive seeds cover each combination of rate, further subscribers, and prediction once; the first three
+    cover both values of each."""
     case = [7, 0, 5, 2, 6, 1, 4, 3][seed % 8]
     rate, viewed, latency = [50, 1000][case % 2], [[], VIEWED][case // 2 % 2], [0.0, 0.03][case // 4 % 2]
     return ["rate:=%d" % rate, "display_latency:=%g" % latency], viewed

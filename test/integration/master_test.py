@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""A ROS master that hangs or dies under the nodes: the hand and known clients notice nothing, /diagnostics reports it,
-and the nodes end when they are asked to. A new master lists all of them, and what is held stays held. The master is one
-of the test's own. MASTER_OUTAGE: how long [s]."""
+"""A ROS master that hangs or dies under the nodes: the hand and connected clients are not affected, /diagnostics
+reports it, and the nodes can be stopped. A new master lists all of them, and a held object stays held. The test has its
+own master. MASTER_OUTAGE: duration [s]."""
 import math
 import os
 import signal
@@ -240,7 +240,7 @@ def print_lags(lags):
 
 
 def hand():
-    """The client with a hand of its own."""
+    """The client, with its own hand."""
     rospy.init_node("client", disable_rostime=True)
     feeder = Feeder()
     diagnostics = Listener("/diagnostics", DiagnosticArray)

@@ -47,7 +47,7 @@ std::string path_of(const std::string& record, std::size_t hand) {
 void run(const Options& options) {
   const scene::Scene scene = scene::load_scene(options.scene);
   if (scene.targets.empty()) validation::refuse(scene.path, "targets", "none", "at least one");
-  for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials
+  for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials, not after
     if (!path.empty()) const config::OutputFile can_be_made(path);
   }
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";

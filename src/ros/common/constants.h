@@ -18,24 +18,24 @@ constexpr double longest_attended = 0.01;
 /// Time between the readings of two clocks above which both are read again [ns]. If longer, stamps jitter more. Test:
 /// none: it only matters if the process is interrupted.
 constexpr std::int64_t clocks_apart = 50'000;
-/// [s] of attended time in which the other stream may follow a time jump. Less: messages that a busy player sends late
-/// are lost. Test: tools_test.py::test_both_start_anew_when_time_jumps_back.
-constexpr double jump_patience = 1.0;
-/// [s] between two looks at the ROS master. Longer: a restarted master lists the node later. Test: none: its deadline
-/// is many times as long.
+/// Attended time within which the other stream may follow a time jump [s]. If smaller, messages that a busy player
+/// sends late are lost. Test: tools_test.py::test_both_restart_when_time_jumps_back.
+constexpr double jump_timeout = 1.0;
+/// Time between two checks of the ROS master [s]. If longer, a restarted master lists the node later. Test: none: its
+/// deadline is many times as long.
 constexpr double master_period = 1.0;
-/// Looks at a restarted master from the registration of publishers to that of subscribers. Fewer: subscribers lose
-/// publishers that are not registered again yet. Test:
+/// Number of checks of a restarted master between the registration of publishers and that of subscribers. If fewer,
+/// subscribers lose publishers that are not registered again yet. Test:
 /// master_test.py::test_a_new_master_lists_the_nodes_again at 0.
 constexpr int subscribers_later = 2;
-/// [s] for the reply of the node's own API. Longer: a node that is interrupted then ends later. Test:
+/// Timeout for the reply of the node's own API [s]. If longer, a node that is interrupted meanwhile exits later. Test:
 /// ended_nodes_test.py::test_all_end_in_order at 600.
-constexpr double own_api_patience = 0.5;
-/// [s] that the end of a node may take. Longer: with a master that hangs, it ends later. Test:
+constexpr double own_api_timeout = 0.5;
+/// Maximum time for the shutdown of a node [s]. If longer, the node exits later when the master hangs. Test:
 /// master_test.py::test_nothing_is_noticed_while_the_master_hangs at 30.
-constexpr double longest_end = 1.5;
-/// [s] between two log lines about one reason of rejection. Less: the log is flooded. Test:
-/// machine_link_test.py::test_what_cannot_be_used_is_told_and_changes_nothing at 0.
+constexpr double shutdown_timeout = 1.5;
+/// Time between two log lines about one reason of rejection [s]. If smaller, the log is flooded. Test:
+/// machine_link_test.py::test_invalid_wrenches_are_reported_and_change_nothing at 0.
 constexpr double log_period = 5.0;
 
 }  // namespace spring_workbench::ros_common

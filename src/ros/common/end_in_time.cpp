@@ -14,7 +14,7 @@ namespace spring_workbench::ros_common {
 void end_in_time(std::function<bool()> ends) {
   std::thread([ends = std::move(ends)] {
     while (!ends()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    std::this_thread::sleep_for(std::chrono::duration<double>(longest_end));
+    std::this_thread::sleep_for(std::chrono::duration<double>(shutdown_timeout));
     if (error_output_takes_more()) {
       std::cerr << "shutdown has taken longer than 1.5 s, probably because the ROS master does not answer; exiting now"
                 << std::endl;

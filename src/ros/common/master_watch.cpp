@@ -55,7 +55,7 @@ std::vector<std::string> connected_publishers(const std::string& topic) {
 }
 
 /// Does what a master does when a topic's publishers change.
-void announce_publishers(const std::string& topic, XmlRpcValue publishers) {
+void send_publisher_update(const std::string& topic, XmlRpcValue publishers) {
   for (const std::string& uri : connected_publishers(topic)) publishers[publishers.size()] = uri;
   XmlRpcValue request = strings({"/master", topic});
   request[2] = publishers;
@@ -138,7 +138,7 @@ bool MasterWatch::register_subscribers() const {
   for (const std::string& topic : topics) {
     XmlRpcValue publishers;
     if (!call_master("registerSubscriber", {topic, "*", own_uri_}, publishers)) return false;
-    announce_publishers(topic, publishers);
+    send_publisher_update(topic, publishers);
   }
   return true;
 }

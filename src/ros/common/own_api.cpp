@@ -12,7 +12,7 @@ std::optional<XmlRpc::XmlRpcValue> call_own_api(const std::string& method, const
   if (!client.executeNonBlock(method.c_str(), arguments)) return std::nullopt;
   XmlRpc::XmlRpcDispatch line;
   line.addSource(&client, XmlRpc::XmlRpcDispatch::WritableEvent | XmlRpc::XmlRpcDispatch::Exception);
-  line.work(own_api_patience);  // until the response is there, at most
+  line.work(own_api_timeout);  // until the response is there, at most
   line.removeSource(&client);
   const bool done = client.executeCheckDone(response) && !client.isFault();
   if (!done || response.getType() != XmlRpc::XmlRpcValue::TypeArray) return std::nullopt;

@@ -49,9 +49,9 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& 
                   runner_, parameters_.scene, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
-      every_second_(node.createSteadyTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
-      describes_scene_(node.createSteadyTimer(ros::WallDuration(scene_period),
-                                              [this](const ros::SteadyTimerEvent&) { describe_scene(); })),
+      diagnostics_timer_(node.createSteadyTimer(ros::WallDuration(1.0), &ManipulationNode::publish_diagnostics, this)),
+      scene_timer_(node.createSteadyTimer(ros::WallDuration(scene_period),
+                                          [this](const ros::SteadyTimerEvent&) { describe_scene(); })),
       master_watch_(master_thread_.handle(node), [this] { checkpoint_.keep_on_new_master(); }),
       show_times_(1.0 / parameters_.rate),
       physics_([this] { run_physics(); }) {
@@ -139,7 +139,7 @@ void ManipulationNode::publish_diagnostics(const ros::SteadyTimerEvent&) {
   const auto answer = master_watch_.answer();
   hint = hint_for_silence(all.front(), senders_of_tf(*answer), parameters_.stylus_frame);
   loop.master_silence = ros_common::steady_time() - answer->received;
-  if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << hint);
+  if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(hint_period, "no sample of the stylus yet: " << hint);
   message.status = diagnostics_.report(all, loop, ros_common::loop_time());
   wrenches_.report(loop.advance.wrench_timeouts, message.status);
   message.status.push_back(lost_messages_.report(ros::this_node::getName()));

@@ -25,9 +25,9 @@ class Checkpoint {
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
 
-  /// Writes the checkpoint to a master that was restarted. Call it in the thread of `master`.
+  /// Writes the checkpoint to a restarted master. Call it in the thread of `master`.
   void keep_on_new_master();
-  /// Returns why the file is not up to date; empty: it is, or there is none.
+  /// Returns the reason why the file is not up to date; empty if it is, or if there is none.
   std::string file_error() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return file_error_;

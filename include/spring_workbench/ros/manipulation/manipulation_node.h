@@ -67,9 +67,9 @@ class ManipulationNode {
   bool workbench_placed_ = false;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::Publisher diagnostics_publisher_;
-  ros::SteadyTimer every_second_, describes_scene_;
+  ros::SteadyTimer diagnostics_timer_, scene_timer_;
   ros_common::MasterWatch master_watch_;
-  live::ShowTimes show_times_;  ///< while there is more to commit, by the steady clock
+  live::ShowTimes show_times_;  ///< schedule of the display while there is more to commit, steady clock
   std::atomic<bool> stop_{false};
   std::atomic<int> realtime_priority_{0};
   std::thread physics_;

@@ -13,8 +13,8 @@ namespace spring_workbench::tracker_driver {
 /// receiver is out of view.
 std::string why_not_sent(const motion::StationSample& sample, const std::string& source);
 
-/// Runs the node `tracker_driver` until shutdown. It plays a motion once, or repeatedly with `loop`, or passes on the
-/// samples of a device or of a stylus that messages move (a marker in rviz, a game pad). It sends tf frames (stylus,
+/// Runs the node `tracker_driver` until shutdown. It plays a motion once (repeatedly with `loop`), or passes on the
+/// samples of a device or of a stylus moved by messages (a marker in rviz, a game pad). It sends tf frames (stylus,
 /// head) and buttons (`stylus/joy`, of station k `stylus_k/joy`; 0: grasp, 1: next tool), stamped with the time at
 /// which each sample is due or, from a device, was measured: `latency` before it arrived. Station 1 of a device is the
 /// stylus, head_stations are the heads (frames head, head_2, …), and any other station k is the frame stylus_k. Poses

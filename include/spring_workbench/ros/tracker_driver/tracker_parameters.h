@@ -46,11 +46,10 @@ struct TrackerParameters {
       std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up; in addition to the file's button
   Vector3d p_ST = Vector3d::Zero();  ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
   double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
-  double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: rate and jitter leave longer gaps out
-  bool even_stamps = true;                 ///< `even_stamps`: stamp a device's samples by its cadence, not by receipt
-  double latency =
-      0.0;  ///< `latency` [s], 0 … 1: of a FASTRAK, from the moment of measuring to the first byte received
-  fastrak::FastrakSettings fastrak;  ///< read_fastrak_settings; in place of file, speed, loop, pause, start and grasp_*
+  double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: longer gaps do not count in rate and jitter
+  bool even_stamps = true;  ///< `even_stamps`: stamp a device's samples by its sample rate, not by receipt
+  double latency = 0.0;     ///< `latency` [s], 0 … 1: of a FASTRAK, from the measurement to the first byte received
+  fastrak::FastrakSettings fastrak;  ///< read_fastrak_settings; replaces file, speed, loop, pause, start and grasp_*
   JoySettings joy;                   ///< read_joy_settings
 };
 
