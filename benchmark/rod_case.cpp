@@ -178,16 +178,16 @@ std::vector<RodCase> recorded_cases(const std::string& folder) {
 }
 
 RodCase rod_case(const Scenario& scene) {
-  const auto families = [](const Vector6d& of) { return rod::PerDof{of[2], of[0], of[5]}; };
+  const auto per_dof = [](const Vector6d& of) { return rod::PerDof{of[2], of[0], of[5]}; };
   RodCase one;
   one.name = scene.name;
   one.mass = scene.mass;
   one.inertia = scene.inertia;
   one.p_OE = -scene.p_EO;
   one.fork.length = scene.length;
-  one.fork.stiffness = families(scene.stiffness);
+  one.fork.stiffness = per_dof(scene.stiffness);
   one.fork.damping_law = rod::DampingLaw::coefficients;
-  one.fork.damping_coefficient = families(scene.damping);
+  one.fork.damping_coefficient = per_dof(scene.damping);
   if (scene.kind == SceneKind::six_dof) {
     one.fork.slope_stiffness = scene.stiffness[3];
   } else {

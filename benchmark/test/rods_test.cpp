@@ -280,7 +280,7 @@ TEST(StabilityMap, SamplesOfTheHandsComeInOrderAndRestAsPlanned) {
 StabilityCell cell_with(double omega_step, MapTail tail) {
   StabilityCell cell;
   cell.step = 0.001;                     // a jump of 1 m within 20 ms does not fully compress such a stiff spring
-  cell.families = {true, false, false};  // one spring: ω² = k / m
+  cell.dofs = {true, false, false};  // one spring: ω² = k / m
   cell.damping_ratio = 1.0;
   cell.stiffness_factor = std::pow(omega_step / cell.step, 2) * cell.mass / 2000.0;
   cell.tail = tail;
@@ -357,7 +357,7 @@ TEST(StabilityMap, EnergyIsJudgedWhileTheHandTremblesAndNotWhileItTurns) {
   cell.damping_ratio = 0.05;
   cell.step = 0.001;
   cell.seconds = 0.5;
-  cell.families = {true, true, true};
+  cell.dofs = {true, true, true};
   for (const auto& [tail, judged] :
        {std::pair{MapTail::rest, true}, std::pair{MapTail::micrometre, true},
         std::pair{MapTail::tenth_of_a_millimetre, true}, std::pair{MapTail::lissajous, false}}) {
@@ -386,7 +386,7 @@ TEST(StabilityMap, ManyHalvedStepsInALongFallAddNoEnergy) {
   cell.mass = 1e6;
   cell.step = 0.05;
   cell.damping_ratio = 0.0;
-  cell.families = {true, true, false};
+  cell.dofs = {true, true, false};
   cell.hand = MapHand::jump;
   cell.seconds = 1.0;
   EXPECT_LT(run_cell("implicit_euler", "linear", cell).energy_growth, 1e-10);
@@ -417,12 +417,12 @@ TEST(StabilityMap, EveryPairOfValuesIsMetByEachIntegrator) {
   const StabilityPlan plan = stability_plan(false);
   const std::size_t values[] = {
       plan.stiffness_factors.size(), plan.masses.size(), plan.steps.size(), plan.damping_ratios.size(),
-      plan.families.size(),          plan.hands.size(),  plan.tails.size()};
+      plan.dofs.size(),          plan.hands.size(),  plan.tails.size()};
   for (const std::string& integrator : plan.integrators) {
     std::vector<std::vector<double>> cells;
     for (const double factor : plan.stiffness_factors) {
       for (const StabilityCell& c : cells_of(plan, integrator, factor)) {
-        const rod::ForkDofs& on = c.families;
+        const rod::ForkDofs& on = c.dofs;
         cells.push_back({c.stiffness_factor, c.mass, c.step, c.damping_ratio,
                          on.stretch + 2.0 * on.bend + 4.0 * on.torsion, static_cast<double>(c.hand),
                          static_cast<double>(c.tail)});
@@ -445,7 +445,7 @@ TEST(StabilityMap, TheFullMapHasEveryCombinationOnce) {
   for (std::size_t i = 0; i < full_map_size(plan); ++i) {
     const StabilityRun one = full_map_cell(plan, i);
     const StabilityCell& c = one.cell;
-    const int on = c.families.stretch + 2 * c.families.bend + 4 * c.families.torsion;
+    const int on = c.dofs.stretch + 2 * c.dofs.bend + 4 * c.dofs.torsion;
     met.insert({one.integrator, c.stiffness_factor, c.mass, c.step, c.damping_ratio, on, c.hand, c.tail});
   }
   EXPECT_EQ(met.size(), full_map_size(plan));
@@ -486,7 +486,7 @@ TEST(StabilityMap, NothingCanFailWhereNothingIsIntegrated) {
   Units units(progress, Shard{});
   const StabilityMap massless = stability_map(plan, units);
   plan.masses = {1.0};
-  plan.families = {{false, false, false}};
+  plan.dofs = {{false, false, false}};
   const StabilityMap rigid = stability_map(plan, units);
   for (const StabilityMap& map : {massless, rigid}) {
     EXPECT_TRUE(map.failures.empty());

@@ -90,7 +90,7 @@ TEST(Proxy, RestsAndIsKicked) {
     EXPECT_LT(to_vector(s.velocity).norm(), 1e-11) << i;
     const Twist change{any(random, 1.0), any(random, 1.0)};
     const Vector3d p = any(random, 1.0);
-    proxy.kick(change, p);
+    proxy.add_rate(change, p);
     s = proxy.motion(hand, 0.015).at(0.015);
     EXPECT_LT((s.velocity.linear + s.velocity.angular.cross(p - s.X.translation()) - change.linear).norm(), 1e-11) << i;
     EXPECT_LT((s.velocity.angular - change.angular).norm(), 1e-11) << i;
@@ -104,7 +104,7 @@ TEST(Proxy, ThatHasComeBackIsTheHand) {
   Proxy proxy;
   for (int i = 0; i < 400 && (i == 0 || proxy.behind()); ++i) {
     proxy.place(offset, Twist());
-    offset = proxy.returned(0.9);
+    offset = proxy.reduced_to(0.9);
   }
   EXPECT_FALSE(proxy.behind());
   EXPECT_EQ(proxy.motion(hand, 0.01).at(0.01).X.matrix(), hand.at(0.01).X.matrix());
