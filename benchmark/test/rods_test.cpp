@@ -279,7 +279,7 @@ TEST(StabilityMap, SamplesOfTheHandsComeInOrderAndRestAsPlanned) {
 
 StabilityCell cell_with(double omega_step, MapTail tail) {
   StabilityCell cell;
-  cell.step = 0.001;                     // a jump of 1 m within 20 ms does not fully compress such a stiff spring
+  cell.step = 0.001;                 // a jump of 1 m within 20 ms does not fully compress such a stiff spring
   cell.dofs = {true, false, false};  // one spring: ω² = k / m
   cell.damping_ratio = 1.0;
   cell.stiffness_factor = std::pow(omega_step / cell.step, 2) * cell.mass / 2000.0;
@@ -415,9 +415,13 @@ TEST(StabilityMap, OutcomesAreOrderedByWhatIsWorst) {
 
 TEST(StabilityMap, EveryPairOfValuesIsMetByEachIntegrator) {
   const StabilityPlan plan = stability_plan(false);
-  const std::size_t values[] = {
-      plan.stiffness_factors.size(), plan.masses.size(), plan.steps.size(), plan.damping_ratios.size(),
-      plan.dofs.size(),          plan.hands.size(),  plan.tails.size()};
+  const std::size_t values[] = {plan.stiffness_factors.size(),
+                                plan.masses.size(),
+                                plan.steps.size(),
+                                plan.damping_ratios.size(),
+                                plan.dofs.size(),
+                                plan.hands.size(),
+                                plan.tails.size()};
   for (const std::string& integrator : plan.integrators) {
     std::vector<std::vector<double>> cells;
     for (const double factor : plan.stiffness_factors) {

@@ -19,19 +19,25 @@ constexpr double interval = 0.008;  // [s] between samples
 
 const Vector3d grip(0.0, 0.0, 0.22);  // handle: the tip is in the box
 
-scene::Scene one_box(double mass) {
+scene::Scene one_box() {
   const Vector3d size(0.1, 0.06, 0.04);
-  return scene_of({box("box", size, mass, Vector3d(0.0, 0.0, 0.02))}, scene::ContactMode::none);
+  return scene_of({box("box", size, 1.0, Vector3d(0.0, 0.0, 0.02))}, scene::ContactMode::none);
 }
 
 std::int64_t nanoseconds(double s) { return std::llround(1e9 * s); }
+
+simulation::SimulationSettings settings(bool massless) {
+  simulation::SimulationSettings result;
+  result.massless = massless;
+  return result;
+}
 
 /// A hand whose sender and host have their own clocks, which can be set.
 class Session {
  public:
   /// The hand grasps the box and carries it off, so that a scene that began again would show; `holds`: or lets go
   /// (of a box without mass, which stays where it is released).
-  explicit Session(bool holds) : runner_(one_box(holds ? 1.0 : 0.0), {}, {}, false) {
+  explicit Session(bool holds) : runner_(one_box(), settings(!holds), {}, false) {
     run(0.5);
     for (int k = 0; k < 50; ++k) {
       carried_ += Vector3d(0.002, 0.0, 0.001);
