@@ -18,7 +18,7 @@ class LiveTuning(unittest.TestCase):
         cls.fork = Listener("manipulation/fork", ForkState)
         cls.client = Client("manipulation/live", timeout=DEADLINE)
 
-    def test_starts_from_the_settings_not_from_what_was_left(self):
+    def test_a_start_uses_the_settings_not_what_was_left(self):
         state = self.fork.next()
         self.assertEqual((state.bend_stiffness, state.torsion_on), (500.0, True))
 
@@ -32,7 +32,9 @@ class LiveTuning(unittest.TestCase):
 
     def test_changes_by_services_are_shown(self):
         rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness)(0.0, 0.0, 7.25, 0)
-        rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True, 0)
+        set_dofs = rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)
+        set_dofs(False, True, True, 0)
+        self.addCleanup(set_dofs, True, True, True, 0)
         rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("paper", 0.005, 0.0)
         shown = lambda: self.client.get_configuration(timeout=DEADLINE)
         wait_for(
