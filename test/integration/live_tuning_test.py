@@ -22,7 +22,7 @@ class LiveTuning(unittest.TestCase):
         state = self.fork.next()
         self.assertEqual((state.bend_stiffness, state.torsion_on), (500.0, True))
 
-    def test_new_values_reach_the_simulation(self):
+    def test_a_new_value_reaches_the_simulation(self):
         answer = self.client.update_configuration({"torsion": False, "bend_stiffness": 321.5, "stretch_damping": 0.25})
         self.assertEqual(answer["bend_stiffness"], 321.5)
         state = self.fork.next(lambda m: not m.torsion_on, "torsion to be off")
@@ -32,9 +32,7 @@ class LiveTuning(unittest.TestCase):
 
     def test_changes_by_services_are_shown(self):
         rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness)(0.0, 0.0, 7.25, 0)
-        set_dofs = rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)
-        set_dofs(False, True, True, 0)
-        self.addCleanup(set_dofs, True, True, True, 0)
+        rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True, 0)
         rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("paper", 0.005, 0.0)
         shown = lambda: self.client.get_configuration(timeout=DEADLINE)
         wait_for(
