@@ -89,7 +89,7 @@ class CollocationStep {
         missed = propagator_.end_effect(done_.defect);
         convergence_.set_error(propagator_.squared_size(missed));
       }
-      mixer_.mix(propagator_.squared_weight(), x);
+      if (!convergence_.ended()) mixer_.mix(propagator_.squared_weight(), x);
     } while (!convergence_.ended());
 
     const Modes end = part().deviation(reached);
