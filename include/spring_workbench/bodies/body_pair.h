@@ -34,7 +34,7 @@ class BodyPair final : public SteppedBody {
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_F) override;
   bool reverses() const override { return true; }
-  /// Both move on as one rigid body would from here.
+  /// Both continue from here like one rigid body.
   void block(double h) override;
 
  private:

@@ -29,11 +29,11 @@ bool same_bits(const BodyState& a, const BodyState& b);
 /// The state of a body of a scene to begin with: asleep.
 BodyState at_start(const scene::Body& body);
 
-/// Which of many objects have changed since when, so that a copy of them takes over no more than these; asking costs as
-/// much as has changed. It is no part of their state: it only saves work.
+/// Records which objects have changed since a given moment, so that a copy updates only these; a query costs as much as
+/// has changed. It is not part of the objects' state: it only saves work.
 class Changes {
  public:
-  /// A moment in the history of these objects; the default is before it.
+  /// A moment in the history of these objects; the default precedes all of it.
   struct Moment {
     std::shared_ptr<const void> of;
     std::uint64_t count = 0;

@@ -7,7 +7,7 @@
 
 namespace spring_workbench::bodies {
 
-/// Balls around the bodies of a scene, by which most of many are found to be out of reach.
+/// Bounding spheres of the bodies of a scene: a fast test that rejects most pairs that cannot touch.
 class Surroundings {
  public:
   explicit Surroundings(const scene::Scene& scene) {

@@ -5,8 +5,8 @@
 
 namespace spring_workbench::collision {
 
-/// [m]; what is nearer above an object that is taken or falls lies on it, and wakes; what is farther above all else
-/// falls at the start. Larger: it hangs in the air. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 0.1.
+/// [m]; a body with a smaller gap above an object rests on it, and wakes when that object is grasped or falls; a body
+/// with a larger gap above all others falls at the start. Larger: it hangs in the air. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 0.1.
 constexpr double support_gap = 1e-4;
 /// Of a contact's normal along z, from where on it carries. Larger: what lies on a slope falls, or floats when that is
 /// taken. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 1.
