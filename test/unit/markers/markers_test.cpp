@@ -202,29 +202,31 @@ TEST_F(MarkersOfALift, TheProbeHasAReadoutWhileItTouches) {
   EXPECT_NE(find(build(), "readout", 0)->text.find(force), std::string::npos);
 }
 
-/// The second line: the scale's mean, the force along and across the tool and its angle; of a probe, the material.
+/// Below the load: the means of scale and torque wrench, the force along and across the tool and its angle; of a probe,
+/// the material.
 TEST_F(MarkersOfALift, ReadingsAreWrittenBelowTheLoad) {
   go_to(8.0);
   live::View view = view_of(simulation_);
   tools::ToolState& tool = view.tools[0];
-  const auto second_line = [&] {
+  const auto below = [&] {
     const MarkerArray markers = builder_.build(view, std_msgs::Header());
     const std::string text = find(markers, "readout", 0)->text;
     return text.find('\n') == std::string::npos ? "" : text.substr(text.find('\n') + 1);
   };
-  EXPECT_EQ(second_line(), "9.8 N along   0.0 N across   0 deg");
+  EXPECT_EQ(below(), "9.8 N along   0.0 N across   0 deg");
   tool.weight_average = {1.0004, 0.002};
+  tool.torque_average = {-0.0504, 0.001};
   tool.force_angle = M_PI / 6.0;
   tool.bending_force = 4.9;
-  EXPECT_EQ(second_line(), "mean 1.000 +- 0.002 vkg   9.8 N along   4.9 N across   30 deg");
+  EXPECT_EQ(below(), "mean 1.000 +- 0.002 vkg   -0.050 +- 0.001 N m\n9.8 N along   4.9 N across   30 deg");
   tool.held_object.clear();
   tool.touched = "box";
-  EXPECT_EQ(second_line(), "");
+  EXPECT_EQ(below(), "");
   tool.material_stiffness = 1234.0;
   tool.material_stiffness_uncertainty = 20.0;
-  EXPECT_EQ(second_line(), "material: 1.23e+03 +- 2e+01 N/m");
+  EXPECT_EQ(below(), "material: 1.23e+03 +- 2e+01 N/m");
   tool.material_stiffness = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(second_line(), "material: rigid");
+  EXPECT_EQ(below(), "material: rigid");
 }
 
 TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
