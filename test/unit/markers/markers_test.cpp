@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/scene/editing.h"
 #include "support/bench_scenes.h"
 #include "support/meshes.h"
 #include "support/paths.h"
@@ -278,6 +278,33 @@ TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPosition) {
   EXPECT_EQ(marks.size(), colors.size());
   EXPECT_EQ(marks.count("0.1 vkg  0.2 mm"), 1u);
   EXPECT_EQ(marks.count("30 vkg  60 mm"), 1u);
+}
+
+/// One fork for 0.1 to 300 vkg: the lightest has its mark, and its load is above none.
+TEST(LoadScale, ATenthOfAKilogramIsSeenBesideThreeHundred) {
+  scene::Scene scene = scene::load_scene(test_support::checkout("scenes/heavy.urdf"));
+  scene::set_mass(scene.bodies[*scene::find_body(scene, "one")], 0.1, "test");
+  simulation::SimulationSettings settings;
+  settings.grasp.calibrate = tools::Calibration::world;
+  settings.contact = scene::ContactMode::none;
+  settings.grasp.object = "one";
+  simulation::Simulation simulation(scene, settings);
+  const Vector3d hand = object(simulation, "one").X_WO.translation() + Vector3d(0, 0, 0.2);
+  for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
+  const auto draw = [&] {
+    return MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
+  };
+  simulation.advance(4.0);
+  const MarkerArray loaded = draw();
+  simulation.release();
+  const MarkerArray unloaded = draw();
+  std::set<std::string> marks;
+  for (const Marker& marker : loaded.markers) {
+    if (marker.ns == "legend marks") marks.insert(marker.text);
+  }
+  EXPECT_EQ(marks, (std::set<std::string>{"0.1 vkg  0.02 mm", "10 vkg  2 mm", "100 vkg  20 mm", "300 vkg  60 mm"}));
+  EXPECT_GT(find(loaded, "legend load", 0)->points[1].z, find(loaded, "legend", 0)->points[0].z);
+  EXPECT_GT(find(loaded, "fork", 0)->color.r, find(unloaded, "fork", 0)->color.r + 0.05f);
 }
 
 TEST(Markers, AMeshIsSentByItsFile) {
