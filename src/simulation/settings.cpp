@@ -187,9 +187,9 @@ std::vector<Field> grasp_fields(S& s) {
   std::optional<RigidTransform>& tip = s.grasp.X_OE;
   return {
       number("limit.force", "N", validation::positive_or_infinite(),
-             "the largest force that the tool exerts at its tip", s.limit.force),
+             "the largest force that a tool with springs exerts at its tip", s.limit.force),
       number("limit.moment", "N·m", validation::positive_or_infinite(),
-             "the largest moment that the tool exerts at its tip", s.limit.moment),
+             "the largest moment that a tool with springs exerts at its tip", s.limit.moment),
       choice("limit.action",
              "what happens when holding an object would need more than limit.force or limit.moment: let_go: the object "
              "is released; slip: the tool keeps pulling with the limit while it slips in the hand",
