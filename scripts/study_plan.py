@@ -35,6 +35,10 @@ SCALES = {
     "frustration": "Frustration: insecure, discouraged, annoyed, stressed (0 very low, 100 very high)",
 }
 PAIRS = tuple(itertools.combinations(SCALES, 2))
+INSTRUCTIONS = (
+    "Bring each object to its translucent target. With the tip in an object, hold the button down to carry it; "
+    "let the button go to put it down."
+)
 
 
 class StudyError(ValueError):
@@ -75,6 +79,7 @@ def keys_of(where, field, value, allowed):
 def load_plan(path):
     """Reads a plan (doc/reference.md) and fills in all fields. Paths are relative to the plan's folder."""
     defaults = {"settings": None, "practice": 1, "trials": 3, "time_limit": 300.0, "weighted": False}
+    defaults["instructions"] = INSTRUCTIONS
     plan = {**defaults, **keys_of(path, "", load_yaml(path), ("scene", "conditions", *defaults))}
     folder = os.path.dirname(os.path.abspath(path))
     for field in ("scene", "settings"):
@@ -89,6 +94,9 @@ def load_plan(path):
     number(path, "time_limit", plan["time_limit"], 1, 3600)
     if not isinstance(plan["weighted"], bool):
         refuse(path, "weighted", "true or false", plan["weighted"])
+    text = plan["instructions"]
+    if not isinstance(text, str) or not text.isascii():  # rviz draws no other characters
+        refuse(path, "instructions", "a text of ASCII characters", text)
     conditions = plan.get("conditions")
     if not isinstance(conditions, dict) or len(conditions) < 2:
         refuse(path, "conditions", "a mapping with two entries or more", conditions)

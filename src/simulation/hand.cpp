@@ -165,12 +165,12 @@ void Hand::set_clutch(bool on, double now) {
   keep_twist(before);
 }
 
-tools::ToolOnObject Hand::begin_shared_step(double now) {
+tools::ToolOnObject Hand::begin_shared_step(double now, double h) {
   moved_ = true;
-  if (hold_ && slip_.open()) take_over(hold_->spring_pull(), now);
   objects_.state(grasp_.object).asleep = false;
   if (probe_) probe_->set_hand(stylus_.motion(now));
-  if (hold_) hold_->set_hand(stylus_.motion(now), now);
+  if (hold_) hold_->set_hand(slip_.motion(stylus_.motion(now), now, h), now);
+  if (hold_ && slip_.open()) hold_->take_twist(object().V_WO_W);
   if (hold_) energy_added_before_ = hold_->energy_added();
   return {hold_.get(), probe_.get()};
 }
@@ -201,11 +201,11 @@ void Hand::end_step(AdvanceReport& report) {
   add_to(report, hold_->take_estimates());
 }
 
-bodies::SteppedBody* Hand::begin_slip(const Wrench& at_tip_W) {
+bodies::SteppedBody* Hand::begin_slip(const Wrench& load_W) {
   moved_ = true;
   energy_added_before_ = hold_->energy_added();
   objects_.state(grasp_.object).asleep = false;
-  return (pulled_ = maker().make_pulled(grasp_, grasped_body(), object().V_WO_W, at_tip_W)).get();
+  return (pulled_ = maker().make_pulled(grasp_, grasped_body(), object().V_WO_W, load_W)).get();
 }
 
 void Hand::change_fork(const ForkChange& change, ChangeReport& report) {

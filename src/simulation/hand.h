@@ -51,8 +51,8 @@ class Hand {
   /// Returns the object that this tool alone holds, ready for a step of `h` [s] under a load
   /// (tools::ToolHold::set_load); null if it is at rest and needs no step.
   bodies::SteppedBody* begin_step(double now, double h, const Wrench& load_W);
-  /// Prepares a step of a tool that shares its object with other tools or pushes it.
-  tools::ToolOnObject begin_shared_step(double now);
+  /// Prepares a step of `h` [s] of a tool that shares its object with other tools or pushes it.
+  tools::ToolOnObject begin_shared_step(double now, double h);
   /// Returns the object that the tool pushes, as a body that no tool holds.
   std::unique_ptr<tools::ToolHold> make_unheld(double now) const {
     return maker().make_unheld(grasped_body(), object().V_WO_W, now);
@@ -86,8 +86,9 @@ class Hand {
   }
   /// Returns whether the hand holds an object with mass on springs.
   bool springs() const { return dynamic() && !objects_.massless(grasp_.object); }
-  /// Returns the held object for a step in which the tool slips in the hand and exerts `at_tip_W`.
-  bodies::SteppedBody* begin_slip(const Wrench& at_tip_W);
+  /// Prepares a step in which the tool slips in the hand. Returns the held object as one that no tool holds, under
+  /// `load_W` at its centre, world axes.
+  bodies::SteppedBody* begin_slip(const Wrench& load_W);
   /// Ends a step of `h` [s] in which the tool slipped, with the stylus at its present pose.
   void end_slip(const Wrench& at_tip_W, double h) {
     slip_.begin(stylus_.X_WS(), hold_->slip(h, {object().X_WO, object().V_WO_W, {}}, at_tip_W));

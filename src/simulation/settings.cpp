@@ -94,8 +94,7 @@ std::vector<Field> scene_fields(S& s) {
       number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
       flag("massless", "no object has mass: each follows the tip, and stays where it is released", s.massless),
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
-      integer("styluses", 1, 255, "number of styluses, each with its tool; one that sends no samples does nothing",
-              s.styluses),
+      integer("styluses", 1, 255, "number of styluses, each with its tool; silent ones do nothing", s.styluses),
       number(
           "hand.scale", "–", between(1e-3, 1e3),
           "length in the world per length of the hand's motion, from the origin of the world; rotations are not scaled",
@@ -109,14 +108,15 @@ std::vector<Field> scene_fields(S& s) {
 
 std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
   return {
-      choice("integrator", "the method that integrates the motion of the fork and the held object", d.integrator),
+      choice("integrator", "the method that integrates the motion; paper: only of one fork, otherwise exponential",
+             d.integrator),
       number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
              d.step),
       number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
              "0: fixed steps; otherwise steps are short enough to keep the error of the run near this value",
              d.tolerance),
       flag("error_bound", "propagate the error of the run and report a bound of it", d.error_bound),
-      choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m", d.inertia),
+      choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m (not with tool spring)", d.inertia),
   };
 }
 
@@ -187,9 +187,9 @@ std::vector<Field> grasp_fields(S& s) {
   std::optional<RigidTransform>& tip = s.grasp.X_OE;
   return {
       number("limit.force", "N", validation::positive_or_infinite(),
-             "the largest force that the tool exerts at its tip", s.limit.force),
+             "the largest force that a tool with springs exerts at its tip", s.limit.force),
       number("limit.moment", "N·m", validation::positive_or_infinite(),
-             "the largest moment that the tool exerts at its tip", s.limit.moment),
+             "the largest moment that a tool with springs exerts at its tip", s.limit.moment),
       choice("limit.action",
              "what happens when holding an object would need more than limit.force or limit.moment: let_go: the object "
              "is released; slip: the tool keeps pulling with the limit while it slips in the hand",

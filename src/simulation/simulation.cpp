@@ -164,11 +164,11 @@ struct Simulation::Impl {
   /// Makes `change`, by which a hand may release its object; other hands on it take over the force of its springs.
   template <typename Change>
   void with_handover(Change&& change);
-  Wrench measured_load(std::size_t object, const std::vector<Hand*>& on_it) const;
+  using Slipping = std::map<Hand*, Wrench>;  ///< limited wrenches of slipping tools on their objects
+  Wrench load(std::size_t object, const std::vector<Hand*>& on_it, const Slipping& slipping) const;
   double next_sample(double after) const;
   double next_edge() const;
   double end_of_step(double t_end) const;
-  using Slipping = std::map<Hand*, Wrench>;  ///< limited wrenches of slipping tools on their objects
   bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
   std::vector<objects::Carried> carried;  ///< bodies of one step; a member to reuse its memory, like `together`
   std::vector<Hand*> together;            ///< hands on one object
@@ -262,19 +262,22 @@ double Simulation::Impl::end_of_step(double t_end) const {
   return std::abs(next_edge - end) < same_time ? std::max(end, next_edge) : std::min(end, next_edge);
 }
 
-/// Sum of the external wrenches on an object that these hands hold, at its centre, world axes, in virtual units.
-Wrench Simulation::Impl::measured_load(std::size_t object, const std::vector<Hand*>& on_it) const {
+/// Sum of these hands' external wrenches and of their slipping tools' wrenches on an object, at its centre, world axes.
+Wrench Simulation::Impl::load(std::size_t object, const std::vector<Hand*>& on_it, const Slipping& slipping) const {
   Wrench load_W;
-  for (const Hand* hand : on_it) {
-    if (!hand->stylus().wrench() || !hand->holds()) continue;
+  for (Hand* hand : on_it) {
+    const auto slips = slipping.find(hand);
+    const bool is_measured = hand->stylus().wrench() && hand->holds();
+    if (!is_measured && slips == slipping.end()) continue;
     const tools::ToolState tool = hand->state(now);
-    const Vector3d lever = tool.X_WE.translation() - objects.states()[object].X_WO.translation();
-    load_W += math::shifted(instruments::measured_at_tip(*hand->stylus().wrench(), tool), lever);
+    Wrench at_tip_W = slips != slipping.end() ? slips->second : Wrench();
+    if (is_measured) at_tip_W += instruments::measured_at_tip(*hand->stylus().wrench(), tool);
+    load_W += math::shifted(at_tip_W, tool.X_WE.translation() - objects.states()[object].X_WO.translation());
   }
   return load_W;
 }
 
-/// Steps all bodies. An object that one tool holds is stepped by that tool, a shared one by its leader.
+/// Steps all bodies: a tool what it alone holds, a leader what several tools hold. Tools that slip only load theirs.
 void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& report) {
   std::map<std::size_t, tools::Sharing> shared;
   carried.clear();
@@ -286,22 +289,21 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
       if (other.carried() == object) together.push_back(&other);
     }
     if (together.front() != &hand) continue;
-    if (const auto slip = slipping.find(&hand); slip != slipping.end()) {
-      Wrench at_tip_W = slip->second;
-      if (hand.stylus().wrench()) at_tip_W += instruments::measured_at_tip(*hand.stylus().wrench(), hand.state(now));
-      carried.push_back({*object, hand.begin_slip(at_tip_W)});
-      continue;
+    const Wrench load_W = load(*object, together, slipping);
+    const auto slips = [&](Hand* of) { return slipping.count(of) > 0; };
+    bodies::SteppedBody* body = nullptr;
+    for (Hand* of : together) body = slips(of) ? of->begin_slip(load_W) : body;
+    together.erase(std::remove_if(together.begin(), together.end(), slips), together.end());
+    if (together.size() == 1 && together.front()->holds()) {
+      body = together.front()->begin_step(now, h, load_W);
+    } else if (!together.empty()) {
+      std::vector<tools::ToolOnObject> tools;
+      for (Hand* of : together) tools.push_back(of->begin_shared_step(now, h));
+      tools::Sharing sharing(tools, [this, &hand] { return hand.make_unheld(now); });
+      sharing.body()->set_load(load_W);
+      body = shared.emplace(*object, std::move(sharing)).first->second.body();
     }
-    const Wrench load_W = measured_load(*object, together);
-    if (together.size() == 1 && hand.holds()) {
-      if (bodies::SteppedBody* body = hand.begin_step(now, h, load_W)) carried.push_back({*object, body});
-      continue;
-    }
-    std::vector<tools::ToolOnObject> tools;
-    for (Hand* other : together) tools.push_back(other->begin_shared_step(now));
-    tools::Sharing sharing(tools, [this, &hand] { return hand.make_unheld(now); });
-    sharing.body()->set_load(load_W);
-    carried.push_back({*object, shared.emplace(*object, std::move(sharing)).first->second.body()});
+    if (body != nullptr) carried.push_back({*object, body});
   }
   std::sort(carried.begin(), carried.end(), [](const auto& a, const auto& b) { return a.object < b.object; });
   objects::StepCounts counts;
@@ -325,10 +327,7 @@ bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let
     if (slipping.count(&hand) > 0 || !hand.springs()) continue;
     const std::optional<Wrench> pull = instruments::limited_wrench(settings.limit, hand.state(now));
     if (!pull) continue;
-    const bool alone = std::none_of(hands.begin(), hands.end(), [&](const Hand& other) {
-      return &other != &hand && other.holds() && other.carried() == hand.carried();
-    });
-    if (alone && settings.limit.action == tools::LimitAction::slip) {
+    if (settings.limit.action == tools::LimitAction::slip) {
       slipping[&hand] = *pull;
     } else {
       let_go.push_back(&hand);

@@ -18,17 +18,23 @@ ContactSynthesizer::Voice ContactSynthesizer::voice_of(const SoundingBody& body)
       {420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
   const SoundingBody block;
   const double density = body.mass / std::pow(body.size, 3), of_block = block.mass / std::pow(block.size, 3);
-  const double touch =
-      M_PI * std::sqrt(body.mass /
-                       struck_stiffness);  // duration of the impact: half a period of the body on its contact spring
+  // Duration of the impact: half a period of the body on its contact spring.
+  const double rigid_touch = M_PI * std::sqrt(body.mass / struck_stiffness);
+  const double touch = rigid_touch * std::sqrt(1.0 + struck_stiffness * body.compliance);
+  const auto gain = [](const double(&mode)[3], double frequency, double duration) {
+    return mode[2] / (1.0 + std::pow(2.0 * frequency * duration, 2));
+  };
   Voice voice{body, {}};
+  double loudness = 0.0, loudness_if_rigid = 0.0;
   for (std::size_t i = 0; i < voice.modes.size(); ++i) {
     const double frequency = std::clamp(ringing[i][0] * block.size / body.size, lowest_pitch, highest_pitch);
     const double turn = 2.0 * M_PI * frequency / sample_rate;
     const double decay = std::exp(-1.0 / (ringing[i][1] * std::sqrt(density / of_block) * sample_rate));
-    const double dull = 1.0 + std::pow(2.0 * frequency * touch, 2);
-    voice.modes[i] = {decay, std::cos(turn), std::sin(turn), ringing[i][2] / dull};
+    voice.modes[i] = {decay, std::cos(turn), std::sin(turn), gain(ringing[i], frequency, touch)};
+    loudness += voice.modes[i].gain;
+    loudness_if_rigid += gain(ringing[i], frequency, rigid_touch);
   }
+  for (Mode& mode : voice.modes) mode.gain *= loudness_if_rigid / loudness;  // a soft one is duller, not softer
   return voice;
 }
 

@@ -64,15 +64,12 @@ std::unique_ptr<ToolHold> HoldMaker::make_unheld(const GraspedBody& object, cons
 }
 
 std::unique_ptr<bodies::SteppedBody> HoldMaker::make_pulled(const Grasp& grasp, const GraspedBody& object,
-                                                            const Twist& V_WO_W, const Wrench& at_tip_W) const {
+                                                            const Twist& V_WO_W, const Wrench& load_W) const {
   scene::Body body;
   const dynamics::BodyInertia of_object = inertia(grasp, object);
   body.mass_properties = {of_object.mass, of_object.inertia_O};
-  Vector3d lever = object.X_WO.linear() * grasp.X_OE.translation();
-  if (grasp.tool == Tool::spring) lever.setZero();  // this tool pulls at the centre
-  const Wrench pull_W{at_tip_W.force, at_tip_W.moment + lever.cross(at_tip_W.force)};
   return std::make_unique<bodies::PulledBody>(bodies::FreeBody(object.index, body, gravity_, object.X_WO, V_WO_W),
-                                              pull_W);
+                                              load_W);
 }
 
 }  // namespace spring_workbench::tools

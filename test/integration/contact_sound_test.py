@@ -87,10 +87,11 @@ class ContactSound(unittest.TestCase):
         self.assertGreater(loudness(ringing), 100 * loudness(later) + 1)
         self.assertGreater(loudness(scrape), 100 * loudness(later) + 1)
 
-    def pitch_of(self, size, mass):
-        """Crossings of zero in the first tenth of a second after a cube was struck."""
+    def struck(self, size, mass, compliance=0.0):
+        """The first tenth of a second after a cube was struck."""
         moment = mass * size**2 / 6.0
         box = BodyDescription(name="box", movable=True, mass=mass, inertia=[moment, 0, 0, 0, moment, 0, 0, 0, moment])
+        box.compliance = compliance
         scene = rospy.Publisher("scene_description", SceneDescription, queue_size=1, latch=True)
         scene.publish(SceneDescription(bodies=[box]))
         with tempfile.TemporaryDirectory() as folder:
@@ -107,11 +108,15 @@ class ContactSound(unittest.TestCase):
         scene.unregister()
         self.tearDown()
         first = next(i for i, s in enumerate(samples) if abs(s) > 200)
-        ringing = samples[first : first + 4410]
-        return sum((a < 0) != (b < 0) for a, b in zip(ringing, ringing[1:]))
+        return samples[first : first + 4410]
 
     def test_a_large_box_sounds_lower_than_a_small_one(self):
-        self.assertLess(2 * self.pitch_of(0.2, 5.0), self.pitch_of(0.05, 0.08))
+        pitch = lambda sound: sum((a < 0) != (b < 0) for a, b in zip(sound, sound[1:]))
+        self.assertLess(2 * pitch(self.struck(0.2, 5.0)), pitch(self.struck(0.05, 0.08)))
+
+    def test_a_soft_box_sounds_duller_than_a_rigid_one(self):
+        brightness = lambda s: sum((b - a) ** 2 for a, b in zip(s, s[1:])) / sum(a * a for a in s)
+        self.assertLess(brightness(self.struck(0.06, 0.13, 1e-4)), 0.8 * brightness(self.struck(0.06, 0.13)))
 
     def test_no_impact_is_lost_while_the_machine_is_busy(self):
         """The player is stopped while an impact and two thousand more messages arrive: the impact is still played."""

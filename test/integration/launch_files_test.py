@@ -18,7 +18,6 @@ import rospkg
 import rospy
 import rostest
 import yaml
-from rosgraph_msgs.msg import Log
 from spring_workbench.msg import Change, ForkState, ObjectStates, StepReport, TaskState
 
 from screen import screen
@@ -79,15 +78,24 @@ class LaunchFiles(unittest.TestCase):
                 return tasks.last and tasks.last.complete
 
             wait_for(complete, "all objects in place", deadline=240.0)
+        self.assertGreaterEqual(tasks.last.grasps, 4)  # each hand scores: two on the bar, and two on the box
         self.assertLessEqual({("bar", "bar"), ("box", ""), ("box", "box"), ("", "box")}, held)
+
+    def parameters(self, *arguments):
+        command = ["roslaunch", "--dump-params", "spring_workbench", *arguments]
+        return yaml.safe_load(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+    def test_by_default_one_fork_is_for_all_objects_of_the_scene(self):
+        hosts = ["hosts.launch", "tracker_host:=a", "rviz_host:=b"]
+        for arguments in (["workbench.launch"], ["demo.launch"], ["playback.launch", "bag:=a.bag"], hosts):
+            self.assertEqual(self.parameters(*arguments)["/manipulation/calibrate"], "world", arguments)
 
     def test_settings_of_a_file_take_precedence_over_arguments(self):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as settings:
             settings.write("{calibrate: none, massless: true, input: {dead_band: {angle: 0.01}}}")
             settings.flush()
-            command = ["roslaunch", "--dump-params", "spring_workbench", "workbench.launch"]
-            command += ["settings:=" + settings.name, "calibrate:=object", "error_bound:=false", "dead_band:=1e-3"]
-            parameters = yaml.safe_load(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+            arguments = ["settings:=" + settings.name, "calibrate:=object", "error_bound:=false", "dead_band:=1e-3"]
+            parameters = self.parameters("workbench.launch", *arguments)
         expected = {"calibrate": "none", "massless": True, "error_bound": False}
         expected.update({"input/dead_band/angle": 0.01, "input/dead_band/distance": 1e-3})
         self.assertEqual({key: parameters["/manipulation/" + key] for key in expected}, expected)
@@ -133,6 +141,18 @@ class LaunchFiles(unittest.TestCase):
             self.assertGreater(len(comparisons), 0)
             for topic in ("/tf", "/stylus/joy", "/manipulation/accepted"):
                 self.assertIn(topic, topics)
+
+    def test_a_recording_is_split_by_size(self):
+        """Into bags of about a megabyte each; the first one is complete while the second is written."""
+        rospy.set_param("/use_sim_time", False)
+        with tempfile.TemporaryDirectory() as folder:
+            arguments = ["rviz:=false", "loop:=true", "record_size:=1", "record:=" + os.path.join(folder, "run")]
+            with Launched("workbench.launch", *arguments):
+                wait_for(lambda: os.path.exists(folder + "/run_1.bag.active"), "a second bag", deadline=180.0)
+            self.assertLess(os.path.getsize(folder + "/run_0.bag"), 3e6)
+            for name in ("run_0.bag", "run_1.bag"):
+                with rosbag.Bag(os.path.join(folder, name)) as bag:
+                    self.assertGreater(bag.get_message_count("/manipulation/accepted"), 0, name)
 
     def test_a_full_disk_ends_the_recording_alone(self):
         rospy.set_param("/use_sim_time", False)

@@ -16,6 +16,7 @@ import rosgraph
 import yaml
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates
+from spring_workbench.srv import SetIntegrator, SetIntegratorRequest
 
 from screen import pixels, screen
 from stack import DEADLINE, Launched, Listener, wait_for
@@ -171,6 +172,18 @@ class Rviz(unittest.TestCase):
         self.assertFalse(self.fork.next().torsion_on)
         xdotool("click", 1)
         self.fork.next(lambda m: m.torsion_on, "torsion on again")
+
+    def test_panel_changes_the_integrator_and_keeps_the_tolerance(self):
+        set_integrator = rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)
+        self.assertTrue(set_integrator("exponential", 0.0, 1e-5).success)
+        for y in range(200, 340, 8):  # down the panel, to the choice of the integrator
+            xdotool("mousemove", 200, y, "sleep", 0.1, "click", 1, "sleep", 0.4, "key", "Down", "key", "Return")
+            with contextlib.suppress(AssertionError):
+                wait_for(lambda: self.fork.last.integrator != "exponential", "another integrator", 1.5)
+                break
+        self.assertEqual(self.fork.next().integrator, "rosenbrock")
+        message = set_integrator("exponential", 0.0, SetIntegratorRequest.KEEP_TOLERANCE).message
+        self.assertIn("tolerance 1e-05 m", message)
 
     def test_object_is_moved_with_the_mouse_alone(self):
         box = self.objects.next().objects[0]

@@ -80,6 +80,9 @@ class Plans(WithFolder):
         self.assertEqual(plan["scene"], os.path.join(self.folder, "scene.urdf"))
         self.assertEqual((plan["practice"], plan["trials"], plan["weighted"]), (2, 1, False))
         self.assertEqual(plan["conditions"]["a"]["dofs"], ["stretch", "bend", "torsion"])
+        self.assertIn("hold the button down", plan["instructions"])
+        plan = sp.load_plan(self.file(PLAN + "instructions: Stack the boxes.\n"))
+        self.assertEqual(plan["instructions"], "Stack the boxes.")
 
     def test_bad_plans_are_refused_in_one_line(self):
         for old, new, words in [
@@ -87,6 +90,8 @@ class Plans(WithFolder):
             ("trials: 1", "trials: 1.5", ["trials", "an integer", "1.5"]),
             ("trials: 1", "time_limit: .nan", ["time_limit", "nan"]),
             ("trials: 1", "weighted: perhaps", ["weighted", "perhaps"]),
+            ("trials: 1", "instructions: [a]", ["instructions", "ASCII", "['a']"]),
+            ("trials: 1", "instructions: Schön", ["instructions", "ASCII", "Schön"]),
             ("trials: 1", "colour: red", ["colour"]),
             ("tool: ray", "tool: tongs", ["c.tool", "spring_fork", "tongs"]),
             ("[bend]", "[twist]", ["b.dofs", "twist"]),

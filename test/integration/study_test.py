@@ -17,6 +17,7 @@ import rospy
 import rostest
 from spring_workbench.msg import TaskState
 from spring_workbench.srv import SelectTool
+from visualization_msgs.msg import MarkerArray
 
 from stack import DEADLINE, Listener, wait_for
 
@@ -30,6 +31,7 @@ conditions:
 practice: 0
 trials: 1
 time_limit: %g
+instructions: Put the box on its target.
 """
 # Answers that only stand for some.
 TLX = "{rigid: &same {mental: 1, physical: 2, temporal: 3, performance: 4, effort: 5, frustration: 6}, bending: *same}"
@@ -47,6 +49,7 @@ class Study(unittest.TestCase):
         self.write("tlx.yaml", TLX)
         self.write("plan.yaml", PLAN % 100)
         self.task = Listener("/manipulation/task", TaskState)
+        self.board = Listener("/manipulation/display/markers", MarkerArray)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -80,9 +83,14 @@ class Study(unittest.TestCase):
         self.assertEqual([row["condition"] for row in first], ["bending"])
         self.assertEqual([row["tlx_raw"] for row in self.rows("participant_002_tlx.csv")], ["3.5"])
 
+        seen = len(self.board.messages)
         status, out, err = self.end(self.start())
         self.assertEqual((status, err), (0, ""))
-        self.assertIn("2 of 2: rigid, trial 1 of 1", out)
+        title = "2 of 2: rigid, trial 1 of 1"
+        texts = [m.text for array in self.board.messages[seen:] for m in array.markers if m.ns == "study"]
+        instructions = title + "\nPut the box on its target.\nThis trial counts."
+        self.assertEqual(texts[texts.index(instructions) + 1], title)  # during the trial
+        self.assertIn(title, out)
         self.assertNotIn("bending", out)
         rows = self.rows("participant_002.csv")
         self.assertEqual(rows[0], first[0])

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The tools of `manipulation` and its second stylus, by topics and services: scenes/single_box, hands on their own
+"""The tools of `manipulation` and its further styluses, by topics and services: scenes/single_box, hands on their own
 clock."""
 import math
 import os
@@ -18,6 +18,7 @@ from spring_workbench.msg import ForkState, ObjectStates, ProbeReading
 from spring_workbench.srv import Calibrate, Release, SelectTool, SetClutch, SetForkDamping, SetForkStiffness
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
 
 from stack import (
     DEADLINE,
@@ -37,18 +38,20 @@ IN_BOX, LIFTED, AWAY = (0.02, 0.0, 0.02 + LENGTH), (0.02, 0.0, 0.30 + LENGTH), (
 
 
 class Hands(Hand):
-    """The first stylus with its buttons, and, if a place is given, a second stylus at rest there."""
+    """The first stylus with its buttons, and further styluses at rest."""
 
     def __init__(self):
         super().__init__()
-        self.next_tool, self.clutch, self.second, self.second_pressed = False, False, None, False
-        self.second_joy = rospy.Publisher("stylus_2/joy", Joy, queue_size=100)
+        self.next_tool = self.clutch = False
+        self.further = {}  # number of a stylus -> its place
+        self.pressing = set()  # numbers of those whose grasp button is down
+        self.further_joy = {k: rospy.Publisher("stylus_%d/joy" % k, Joy, queue_size=100) for k in (2, 4)}
 
     def send(self, transform):
         transforms = [transform]
-        if self.second:
-            transforms.append(stylus_transform(transform.header.stamp, self.second, DOWN))
-            transforms[-1].child_frame_id = "stylus_2"
+        for number, place in self.further.items():
+            transforms.append(stylus_transform(transform.header.stamp, place, DOWN))
+            transforms[-1].child_frame_id = "stylus_%d" % number
         self.tf.publish(TFMessage(transforms))
 
     def send_button(self):
@@ -56,9 +59,9 @@ class Hands(Hand):
         joy.header.stamp = self.now()
         joy.buttons = [int(self.pressed), int(self.next_tool), int(self.clutch)]
         self.joy.publish(joy)
-        if self.second:
-            joy.buttons = [int(self.second_pressed), 0]
-            self.second_joy.publish(joy)
+        for number in self.further:
+            joy.buttons = [int(number in self.pressing), 0]
+            self.further_joy[number].publish(joy)
 
 
 class Tools(unittest.TestCase):
@@ -81,18 +84,22 @@ class Tools(unittest.TestCase):
         cls.shown_fork = Listener("manipulation/display/fork", ForkState)
         cls.fork_2 = Listener("manipulation/fork_2", ForkState)
         cls.wrench_2 = Listener("manipulation/wrench_2", WrenchStamped)
+        cls.fork_4 = Listener("manipulation/fork_4", ForkState)
+        cls.wrench_4 = Listener("manipulation/wrench_4", WrenchStamped)
+        cls.probe_4 = Listener("manipulation/probe_4", ProbeReading)
         cls.wrench = Listener("manipulation/wrench", WrenchStamped)
         cls.tf = Listener("/tf", TFMessage)
         cls.diagnostics = diagnostics_listener()
         cls.hand = Hands()
         cls.hand.wait_for_node()
-        wait_for(lambda: cls.hand.second_joy.get_num_connections() > 0, "the node to listen to stylus_2/joy")
+        for joy in cls.hand.further_joy.values():
+            wait_for(lambda joy=joy: joy.get_num_connections() > 0, "the node to listen to " + joy.name)
 
     def setUp(self):
-        self.hand.pressed = self.hand.second_pressed = self.hand.next_tool = self.hand.clutch = False
-        self.hand.second, self.hand.position = None, AWAY
+        self.hand.pressed = self.hand.next_tool = self.hand.clutch = False
+        self.hand.further, self.hand.pressing, self.hand.position = {}, set(), AWAY
         self.hand.run(0.2)
-        for stylus in [1, 2]:
+        for stylus in [1, 2, 3, 4]:
             self.call("select_tool", "spring_fork", stylus)
         self.call("set_stiffness", 2000.0, 500.0, 5.0, 0)
         self.call("reset")
@@ -130,7 +137,7 @@ class Tools(unittest.TestCase):
         self.assertFalse(self.box().held)
 
     def test_bad_tools_are_refused(self):
-        for arguments, words in [(("tongs", 1), ("tongs", "spring_probe")), (("spring", 3), ("stylus", "3"))]:
+        for arguments, words in [(("tongs", 1), ("tongs", "spring_probe")), (("spring", 5), ("stylus", "5"))]:
             answer = self.services["select_tool"](*arguments)
             self.assertFalse(answer.success)
             for word in words:
@@ -164,7 +171,7 @@ class Tools(unittest.TestCase):
             self.hand.move([start[0] + 0.3, start[1] - 0.3, start[2]], DOWN, 1.0)
             self.hand.run(4.0)
             self.assertLess(math.dist((before[0], before[1] + 0.1, before[2]), place()), 1e-4)
-        self.assertFalse(self.services["clutch"](True, 3).success)
+        self.assertFalse(self.services["clutch"](True, 5).success)
 
     def test_stylus_of_calibrate_and_release(self):
         self.lift()
@@ -235,9 +242,9 @@ class Tools(unittest.TestCase):
 
     def test_second_stylus_takes_the_object_over(self):
         self.lift()
-        self.hand.second = (-0.03, 0.0, LIFTED[2])
+        self.hand.further = {2: (-0.03, 0.0, LIFTED[2])}
         self.hand.run(0.3)
-        self.hand.second_pressed = True
+        self.hand.pressing = {2}
         self.hand.run(1.5)
         first, second = self.fork.next(), self.fork_2.next()
         self.assertEqual((first.held_object, second.held_object), ("box", "box"))
@@ -256,12 +263,45 @@ class Tools(unittest.TestCase):
         self.assertAlmostEqual(felt.wrench.force.z, WEIGHT / FORCE_SCALE, delta=0.05 * WEIGHT / FORCE_SCALE)
         self.assertIn("box", self.call("release").message)
 
+    def test_a_fourth_stylus_is_a_hand_like_the_first(self):
+        """It takes the box over, with readings, frames and markers of its own, and touches it with its own probe."""
+        markers = Listener("manipulation/markers", MarkerArray)
+        self.addCleanup(markers.subscriber.unregister)
+        self.lift()
+        self.call("set_stiffness", 700.0, 300.0, 2.0, 4)
+        self.hand.further = {4: (-0.03, 0.0, LIFTED[2])}
+        self.hand.run(0.3)
+        self.hand.pressing = {4}
+        self.hand.run(0.5)
+        self.hand.pressed = False
+        self.hand.run(2.5)
+        fork, felt = self.fork_4.next(), self.wrench_4.next()
+        self.assertEqual((self.fork.next().held_object, fork.held_object), ("", "box"))
+        self.assertEqual((fork.stretch_stiffness, self.fork.last.stretch_stiffness), (700.0, 2000.0))
+        self.assertAlmostEqual(fork.weight, 1.0, delta=1e-3)
+        self.assertAlmostEqual(fork.weight_mean, 1.0, delta=1e-3)
+        self.assertEqual(felt.header.frame_id, "fork_handle_4")
+        self.assertAlmostEqual(felt.wrench.force.z, WEIGHT / FORCE_SCALE, delta=0.05 * WEIGHT / FORCE_SCALE)
+        frames = {t.child_frame_id for m in self.tf.messages for t in m.transforms}
+        self.assertLessEqual({"fork_handle_4", "fork_tip_4"}, frames)
+        drawn = {m.ns for m in wait_for(lambda: self.hand.run(0.1) or markers.last, "markers").markers}
+        self.assertLessEqual({"fork_4", "force_4", "readout_4", "legend load_4"}, drawn)
+        self.assertNotIn("fork_3", drawn)  # that stylus has sent nothing
+        self.assertIn("box", self.call("release", 4).message)
+        self.hand.further, self.hand.pressing = {}, set()
+        self.call("reset")
+        self.call("select_tool", "spring_probe", 4)
+        self.hand.further = {4: (0.02, 0.0, 0.04 + LENGTH - 0.01)}
+        self.hand.run(2.0)  # it is followed there at a bounded speed
+        self.assertEqual((self.fork_4.next().touched, self.probe_4.next().touched), ("box", "box"))
+        self.assertEqual(self.fork.next().tool, "spring_fork")
+
     def test_each_hand_has_settings_of_its_own(self):
         """Both carry the box, each with its own springs. Setting the present values for both moves nothing."""
         self.lift()
-        self.hand.second = (-0.03, 0.0, LIFTED[2])
+        self.hand.further = {2: (-0.03, 0.0, LIFTED[2])}
         self.hand.run(0.3)
-        self.hand.second_pressed = True
+        self.hand.pressing = {2}
         self.hand.run(0.5)
         self.call("set_stiffness", 700.0, 300.0, 2.0, 2)
         springs = lambda fork: (fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness)
@@ -288,11 +328,10 @@ class Tools(unittest.TestCase):
 
     def test_both_restart_when_time_jumps_back(self):
         self.lift()
-        self.hand.second = (-0.03, 0.0, LIFTED[2])
-        self.hand.second_pressed = True
+        self.hand.further, self.hand.pressing = {2: (-0.03, 0.0, LIFTED[2])}, {2}
         self.hand.run(0.5)
         self.hand.tick -= round(30.0 / Hand.STEP)
-        self.hand.pressed = self.hand.second_pressed = False
+        self.hand.pressed, self.hand.pressing = False, set()
         self.hand.run(0.6)
         self.assertAlmostEqual(self.box().pose.position.z, 0.02, delta=1e-9)
         newest = self.fork_2.next(

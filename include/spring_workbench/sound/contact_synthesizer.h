@@ -9,14 +9,17 @@ namespace spring_workbench::sound {
 /// A ringing body: as compact as a cube of edge `size` [m] and with `mass` [kg], both > 0.
 struct SoundingBody {
   double mass = 0.13, size = 0.06;  ///< of a small wooden block
+  double compliance = 0.0;          ///< of the materials of both bodies where it was struck, ≥ 0 [m/N]
 
-  bool operator==(const SoundingBody& other) const { return mass == other.mass && size == other.size; }
+  bool operator==(const SoundingBody& other) const {
+    return mass == other.mass && size == other.size && compliance == other.compliance;
+  }
 };
 
 /// Turns contacts into sound. An impact excites a few ringing modes of a body, louder for a larger impulse; slipping is
-/// noise that gets louder and higher with speed. A larger body rings lower; a heavier one sounds duller, since it stays
-/// in contact for longer; one of a denser material rings for longer (doc/reference.md, contact_sound). Samples are in
-/// −1 … 1; the same calls give the same samples.
+/// noise that gets louder and higher with speed. A larger body rings lower; a heavier one and a softer one sound
+/// duller, since they stay in contact for longer; one of a denser material rings for longer (doc/reference.md,
+/// contact_sound). Samples are in −1 … 1; the same calls give the same samples.
 class ContactSynthesizer {
  public:
   static constexpr int sample_rate = 44100;  ///< [Hz]

@@ -42,9 +42,10 @@ class HoldMaker {
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
   /// Makes the object, at time `now` [s], a body that no tool holds and that tools can push. Its mass must be > 0.
   std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
-  /// Makes the object a free body with this twist, under the constant wrench `at_tip_W` of a tool at its limit.
+  /// Makes the object a free body with this twist, under the constant wrench `load_W` of tools at their limits, at its
+  /// centre, world axes.
   std::unique_ptr<bodies::SteppedBody> make_pulled(const Grasp& grasp, const GraspedBody& object, const Twist& V_WO_W,
-                                                   const Wrench& at_tip_W) const;
+                                                   const Wrench& load_W) const;
   /// The DOFs in which the object can move: those that are on and in which it has inertia.
   rod::ForkDofs possible_dofs(const Grasp& grasp, const GraspedBody& object) const;
 

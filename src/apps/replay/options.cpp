@@ -88,7 +88,7 @@ std::string help_text() {
   text << R"(Runs the simulation on a recorded hand, without a ROS master or a clock, and writes CSV.
 Equal input gives bit-identical output.
 
-replay --scene SCENE.urdf (--motion FILE [--motion FILE] | --bag FILE.bag) [--settings FILE.yaml]
+replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [--settings FILE.yaml]
        [--set key=value ...] --out RUN.csv
 
   --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too

@@ -55,8 +55,10 @@ class ContactSound {
   void on_scene(const SceneDescription::ConstPtr& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
     bodies_.clear();
+    compliances_.clear();
     for (const BodyDescription& body : message->bodies) {
       const double trace = body.inertia[0] + body.inertia[4] + body.inertia[8];
+      if (body.compliance > 0.0) compliances_[body.name] = body.compliance;
       if (body.mass > 0.0 && trace > 0.0) bodies_[body.name] = {body.mass, std::sqrt(2.0 * trace / body.mass)};
     }
   }
@@ -64,10 +66,14 @@ class ContactSound {
   /// Both bodies of an impact ring if they are movable; without a scene description, a small wooden block rings.
   void strike(const Contact& contact) {
     bool rings = false;
+    double compliance = 0.0;
+    for (const std::string& name : {contact.object, contact.other}) {
+      if (const auto found = compliances_.find(name); found != compliances_.end()) compliance += found->second;
+    }
     for (const std::string& name : {contact.object, contact.other}) {
       const auto body = bodies_.find(name);
       if (body == bodies_.end()) continue;
-      synthesizer_->strike(contact.impulse, body->second);
+      synthesizer_->strike(contact.impulse, {body->second.mass, body->second.size, compliance});
       rings = true;
     }
     if (!rings) synthesizer_->strike(contact.impulse);
@@ -102,8 +108,9 @@ class ContactSound {
   std::mutex mutex_;  ///< guards the synthesizer, the bodies and the time of their last message
   std::unique_ptr<sound::ContactSynthesizer> synthesizer_;
   std::unique_ptr<sound::AudioOutput> output_;
-  std::map<std::string, sound::SoundingBody> bodies_;
-  double played_until_, last_contacts_ = 0.0;  ///< [s], by the steady clock
+  std::map<std::string, sound::SoundingBody> bodies_;  ///< the movable ones
+  std::map<std::string, double> compliances_;          ///< of soft bodies [m/N]
+  double played_until_, last_contacts_ = 0.0;          ///< [s], by the steady clock
   ros_common::CallbackThread contacts_thread_{"contacts"}, master_thread_{"master"};
   ros_common::MasterWatch master_watch_{master_thread_.handle(ros::NodeHandle())};
   ros::Subscriber subscriber_, scene_subscriber_;

@@ -45,19 +45,24 @@ std::string printed(const char* format, double a, double b, double c = 0.0) {
   return text;
 }
 
-/// The second line of the text: the readings of the tool. rviz can only draw ASCII.
+std::string printed(const tools::Reading& average, double scale, const char* unit) {
+  if (!std::isfinite(average.uncertainty)) return "";
+  return printed("%.3f +- %.1g ", average.mean / scale, average.uncertainty / scale) + unit;
+}
+
+/// The further lines of the text: the readings of the tool. rviz can only draw ASCII.
 std::string reading(const tools::ToolState& tool, double force_scale) {
   if (!tool.touched.empty()) {
     if (tool.material_stiffness <= 0.0) return "";
     if (std::isinf(tool.material_stiffness)) return "\nmaterial: rigid";
     return printed("\nmaterial: %.3g +- %.1g N/m", tool.material_stiffness, tool.material_stiffness_uncertainty);
   }
-  std::string text = "\n";
-  if (std::isfinite(tool.weight_average.uncertainty))
-    text += printed("mean %.3f +- %.1g vkg   ", tool.weight_average.mean, tool.weight_average.uncertainty);
+  const std::string weight = printed(tool.weight_average, 1.0, "vkg");
+  const std::string torque = printed(tool.torque_average, force_scale, "N m");
   constexpr double degree = M_PI / 180.0;
-  return text + printed("%.1f N along   %.1f N across   %.0f deg", tool.stretching_force / force_scale,
-                        tool.bending_force / force_scale, tool.force_angle / degree);
+  return (weight.empty() ? "" : "\nmean " + weight + "   " + torque) +
+         printed("\n%.1f N along   %.1f N across   %.0f deg", tool.stretching_force / force_scale,
+                 tool.bending_force / force_scale, tool.force_angle / degree);
 }
 
 void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const std::string& number,

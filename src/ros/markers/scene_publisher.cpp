@@ -61,6 +61,7 @@ BodyDescription to_message(const scene::Body& body, MeshIndices& meshes, SceneDe
   for (int i = 0; i < 9; ++i)
     message.inertia[static_cast<std::size_t>(i)] = body.mass_properties.inertia_O(i / 3, i % 3);
   message.friction = body.material.friction;
+  message.compliance = 1.0 / body.material.stiffness;
   message.pose = ros_common::to_pose(body.X_WO);
   message.link = ros_common::to_pose(body.X_OL);
   for (const geometry::Shape& shape : body.visual) message.visual.push_back(to_message(shape, meshes, scene));

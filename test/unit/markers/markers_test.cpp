@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/scene/editing.h"
 #include "support/bench_scenes.h"
 #include "support/meshes.h"
 #include "support/paths.h"
@@ -202,29 +202,31 @@ TEST_F(MarkersOfALift, TheProbeHasAReadoutWhileItTouches) {
   EXPECT_NE(find(build(), "readout", 0)->text.find(force), std::string::npos);
 }
 
-/// The second line: the scale's mean, the force along and across the tool and its angle; of a probe, the material.
+/// Below the load: the means of scale and torque wrench, the force along and across the tool and its angle; of a probe,
+/// the material.
 TEST_F(MarkersOfALift, ReadingsAreWrittenBelowTheLoad) {
   go_to(8.0);
   live::View view = view_of(simulation_);
   tools::ToolState& tool = view.tools[0];
-  const auto second_line = [&] {
+  const auto below = [&] {
     const MarkerArray markers = builder_.build(view, std_msgs::Header());
     const std::string text = find(markers, "readout", 0)->text;
     return text.find('\n') == std::string::npos ? "" : text.substr(text.find('\n') + 1);
   };
-  EXPECT_EQ(second_line(), "9.8 N along   0.0 N across   0 deg");
+  EXPECT_EQ(below(), "9.8 N along   0.0 N across   0 deg");
   tool.weight_average = {1.0004, 0.002};
+  tool.torque_average = {-0.0504, 0.001};
   tool.force_angle = M_PI / 6.0;
   tool.bending_force = 4.9;
-  EXPECT_EQ(second_line(), "mean 1.000 +- 0.002 vkg   9.8 N along   4.9 N across   30 deg");
+  EXPECT_EQ(below(), "mean 1.000 +- 0.002 vkg   -0.050 +- 0.001 N m\n9.8 N along   4.9 N across   30 deg");
   tool.held_object.clear();
   tool.touched = "box";
-  EXPECT_EQ(second_line(), "");
+  EXPECT_EQ(below(), "");
   tool.material_stiffness = 1234.0;
   tool.material_stiffness_uncertainty = 20.0;
-  EXPECT_EQ(second_line(), "material: 1.23e+03 +- 2e+01 N/m");
+  EXPECT_EQ(below(), "material: 1.23e+03 +- 2e+01 N/m");
   tool.material_stiffness = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(second_line(), "material: rigid");
+  EXPECT_EQ(below(), "material: rigid");
 }
 
 TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
@@ -276,6 +278,33 @@ TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPosition) {
   EXPECT_EQ(marks.size(), colors.size());
   EXPECT_EQ(marks.count("0.1 vkg  0.2 mm"), 1u);
   EXPECT_EQ(marks.count("30 vkg  60 mm"), 1u);
+}
+
+/// One fork for 0.1 to 300 vkg: the lightest has its mark, and its load is above none.
+TEST(LoadScale, ATenthOfAKilogramIsSeenBesideThreeHundred) {
+  scene::Scene scene = scene::load_scene(test_support::checkout("scenes/heavy.urdf"));
+  scene::set_mass(scene.bodies[*scene::find_body(scene, "one")], 0.1, "test");
+  simulation::SimulationSettings settings;
+  settings.grasp.calibrate = tools::Calibration::world;
+  settings.contact = scene::ContactMode::none;
+  settings.grasp.object = "one";
+  simulation::Simulation simulation(scene, settings);
+  const Vector3d hand = object(simulation, "one").X_WO.translation() + Vector3d(0, 0, 0.2);
+  for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
+  const auto draw = [&] {
+    return MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
+  };
+  simulation.advance(4.0);
+  const MarkerArray loaded = draw();
+  simulation.release();
+  const MarkerArray unloaded = draw();
+  std::set<std::string> marks;
+  for (const Marker& marker : loaded.markers) {
+    if (marker.ns == "legend marks") marks.insert(marker.text);
+  }
+  EXPECT_EQ(marks, (std::set<std::string>{"0.1 vkg  0.02 mm", "10 vkg  2 mm", "100 vkg  20 mm", "300 vkg  60 mm"}));
+  EXPECT_GT(find(loaded, "legend load", 0)->points[1].z, find(loaded, "legend", 0)->points[0].z);
+  EXPECT_GT(find(loaded, "fork", 0)->color.r, find(unloaded, "fork", 0)->color.r + 0.05f);
 }
 
 TEST(Markers, AMeshIsSentByItsFile) {

@@ -78,6 +78,18 @@ TEST(WorldCalibration, TheForkShowsTheWeightInEveryShippedScene) {
   EXPECT_GE(scenes_seen, 4);
 }
 
+/// The bar lies across the level fork, which has it 10 cm off its centre.
+TEST(WorldCalibration, ABarTakenOffItsCentreBendsAndTwistsTheFork) {
+  const scene::Scene scene = scene::load_scene(scenes + "bar.urdf");
+  const Vector3d across(0.5 * M_PI, 0.0, 0.0);  // y of the handle is up
+  const tools::ToolState off = at_rest(scene, "bar", Vector3d(0.1, 0.0, 0.0), across);
+  EXPECT_GT(off.bend.norm(), 0.3 * off.length);
+  EXPECT_GT(std::abs(off.torsion), 0.2);
+  const tools::ToolState cube = at_rest(scene, "cube", Vector3d(0.01, 0.0, 0.0), across);
+  EXPECT_GT(off.bend.norm(), 5.0 * cube.bend.norm());
+  EXPECT_GT(std::abs(off.torsion), 50.0 * std::abs(cube.torsion));
+}
+
 TEST(WorldCalibration, ThreeHundredVirtualKilogramsAreLiftedByAPullOfFortyCentimetres) {
   const scene::Scene scene = scene::load_scene(scenes + "heavy.urdf");
   Simulation simulation(scene, to_world());

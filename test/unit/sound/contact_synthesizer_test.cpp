@@ -139,6 +139,20 @@ TEST(ContactSynthesizer, TheHeavierOfOneSizeIsTheDuller) {
   }
 }
 
+/// In the end only the lowest mode is heard; a soft body is as loud as a rigid one.
+TEST(ContactSynthesizer, TheSofterMaterialIsTheDuller) {
+  const std::vector<float> rigid = struck({0.13, 0.06});
+  double last = brightness(rigid);
+  for (const double stiffness : {1e7, 1e6, 1e5, 1e4}) {
+    const std::vector<float> soft = struck({0.13, 0.06, 1.0 / stiffness});
+    EXPECT_LT(brightness(soft), last) << stiffness;
+    last = brightness(soft);
+    EXPECT_GT(energy(soft), energy(rigid)) << stiffness;
+    EXPECT_LT(energy(soft), 2.0 * energy(rigid)) << stiffness;
+  }
+  EXPECT_LT(last, 0.7 * brightness(rigid));
+}
+
 /// Sixteen times the density: four times as long.
 TEST(ContactSynthesizer, TheDenserMaterialRingsTheLonger) {
   /// [samples] in which it goes down to 1/e; begins late, when the lowest mode alone is heard.
