@@ -27,6 +27,7 @@
 #include "spring_workbench/SetIntegrator.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/tools/tool.h"
+#include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
 #include "step_figures.h"
 
@@ -58,27 +59,19 @@ WorkbenchPanel::WorkbenchPanel(QWidget* parent)
 }
 
 QLayout* WorkbenchPanel::make_node() {
-  node_field_ = new QLineEdit(node_, this);
+  node_field_ = new QLineEdit(this);
   node_field_->setToolTip("name of the node, relative to the namespace of rviz");
-  connect(node_field_, &QLineEdit::editingFinished, this, [this] {
-    if (node_field_->text() != node_) follow(node_field_->text());
-  });
+  connect(node_field_, &QLineEdit::editingFinished, this, [this] { follow(node_field_->text()); });
   auto* row = new QHBoxLayout;
   row->addWidget(new QLabel("Node", this));
   row->addWidget(node_field_);
   return row;
 }
 
-std::string WorkbenchPanel::in_node(const std::string& name) const { return node_.toStdString() + "/" + name; }
-
-std::string WorkbenchPanel::beside_node(const std::string& name) const {
-  return ros::names::append(ros::names::parentNamespace(ros::names::resolve(node_.toStdString())), name);
-}
-
 template <typename Service>
 void WorkbenchPanel::ask(const std::string& service, const typename Service::Request& request) {
   free_at_ = panel_time() + settling;
-  services_.call<Service>(service, in_node(service), request);
+  services_.call<Service>(service, node_.of_node(service), request);
 }
 
 QWidget* WorkbenchPanel::make_controls() {
@@ -96,10 +89,11 @@ void WorkbenchPanel::make_dofs(QVBoxLayout* layout) {
   layout->addWidget(dofs_);
   connect(dofs_, &DofControls::switched, this, [this] { ask<SetForkDofs>("set_dofs", dofs_->dofs()); });
   connect(dofs_, &DofControls::stiffness_moved, this, [this](int i) {
-    services_.call<SetForkStiffness>("stiffness " + std::to_string(i), in_node("set_stiffness"), dofs_->stiffness(i));
+    services_.call<SetForkStiffness>("stiffness " + std::to_string(i), node_.of_node("set_stiffness"),
+                                     dofs_->stiffness(i));
   });
   connect(dofs_, &DofControls::damping_moved, this,
-          [this] { services_.call<SetForkDamping>("damping", in_node("set_damping"), dofs_->damping()); });
+          [this] { services_.call<SetForkDamping>("damping", node_.of_node("set_damping"), dofs_->damping()); });
 }
 
 void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
@@ -134,7 +128,7 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   connect(load, &QPushButton::clicked, this, [this] {
     LoadScene::Request request;
     request.scene = scene_->text().toStdString();
-    services_.call<LoadScene>("load_scene", in_node("load_scene"), request);
+    services_.call<LoadScene>("load_scene", node_.of_node("load_scene"), request);
   });
 }
 
@@ -146,7 +140,7 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     row->addWidget(button);
     const std::string service = QString(name).toLower().toStdString();
     connect(button, &QPushButton::clicked, this,
-            [this, service] { services_.call<Service>(service, in_node(service), typename Service::Request()); });
+            [this, service] { services_.call<Service>(service, node_.of_node(service), typename Service::Request()); });
   };
   add("Calibrate", Calibrate());
   add("Reset", std_srvs::Trigger());
@@ -159,7 +153,7 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     std_srvs::SetBool::Request request;
     request.data = on ? 1 : 0;
     free_at_ = panel_time() + settling;
-    services_.call<std_srvs::SetBool>("grasp", beside_node("tracker_driver/grasp"), request);
+    services_.call<std_srvs::SetBool>("grasp", node_.beside("tracker_driver/grasp"), request);
   });
   auto* clutch = new QCheckBox("Clutch", this);
   clutch->setToolTip("on: the hand moves without its tool");
@@ -167,12 +161,12 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
   connect(clutch, &QCheckBox::clicked, this, [this](bool on) {
     SetClutch::Request request;
     request.on = on ? 1 : 0;
-    services_.call<SetClutch>("clutch", in_node("clutch"), request);
+    services_.call<SetClutch>("clutch", node_.of_node("clutch"), request);
   });
 }
 
 void WorkbenchPanel::onInitialize() {
-  follow(node_);
+  subscribe();
   shared_master_watch();
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &WorkbenchPanel::refresh);
@@ -181,30 +175,32 @@ void WorkbenchPanel::onInitialize() {
 
 void WorkbenchPanel::load(const rviz::Config& config) {
   rviz::Panel::load(config);
-  if (QString node; config.mapGetString("Node", &node) && node != node_) follow(node);
+  if (QString node; config.mapGetString("Node", &node)) follow(node);
 }
 
 void WorkbenchPanel::save(rviz::Config config) const {
   rviz::Panel::save(config);
-  config.mapSetValue("Node", node_);
+  config.mapSetValue("Node", QString::fromStdString(node_.text()));
 }
 
 void WorkbenchPanel::follow(const QString& node) {
-  std::string error;
-  const bool valid =
-      !node.isEmpty() && node != "/" && node[0] != '~' && ros::names::validate(node.toStdString(), error);
-  if (!valid) {
-    node_field_->setText(node_);
-    answer_->setText("Node: must be the name of a ROS node, got " + node);
-    return;
+  if (node.toStdString() == node_.text()) return;
+  try {
+    node_ = NodeName(node.toStdString());
+    subscribe();
+    Q_EMIT configChanged();
+  } catch (const validation::InputError& error) {
+    node_field_->setText(QString::fromStdString(node_.text()));
+    answer_->setText(error.what());
   }
-  if (node != node_) Q_EMIT configChanged();
-  node_ = node;
-  node_field_->setText(node_);
+}
+
+void WorkbenchPanel::subscribe() {
   ros::NodeHandle handle;
-  fork_subscriber_ = handle.subscribe(in_node("fork"), 1, &WorkbenchPanel::on_fork, this);
-  steps_subscriber_ = handle.subscribe(in_node("steps"), 200, &WorkbenchPanel::on_steps, this);
-  joy_subscriber_ = handle.subscribe(beside_node("stylus/joy"), 1, &WorkbenchPanel::on_joy, this);
+  fork_subscriber_ = handle.subscribe(node_.of_node("fork"), 1, &WorkbenchPanel::on_fork, this);
+  steps_subscriber_ = handle.subscribe(node_.of_node("steps"), 200, &WorkbenchPanel::on_steps, this);
+  joy_subscriber_ = handle.subscribe(node_.beside("stylus/joy"), 1, &WorkbenchPanel::on_joy, this);
+  node_field_->setText(QString::fromStdString(node_.text()));
   fork_received_ = -1e9;
   show_silence();
 }
@@ -236,7 +232,7 @@ void WorkbenchPanel::refresh() {
 void WorkbenchPanel::show_silence() {
   fork_.reset();
   controls_->setEnabled(false);
-  answer_->setText("no data from " + node_ + ": is it running?");
+  answer_->setText(QString::fromStdString("no data from " + node_.text() + ": is it running?"));
 }
 
 void WorkbenchPanel::show_fork() {

@@ -6,8 +6,8 @@
 #include <sensor_msgs/Joy.h>
 
 #include <memory>
-#include <string>
 
+#include "node_name.h"
 #include "service_caller.h"
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/StepReport.h"
@@ -48,10 +48,9 @@ class WorkbenchPanel : public rviz::Panel {
   void make_choices(QVBoxLayout* layout);
   void make_buttons(QVBoxLayout* layout);
 
-  /// Shows and controls the node of this name. A text that cannot be one is reported, and changes nothing.
+  /// Shows and controls the node of this name. What cannot be one is reported, and changes nothing.
   void follow(const QString& node);
-  std::string in_node(const std::string& name) const;
-  std::string beside_node(const std::string& name) const;
+  void subscribe();
 
   void on_fork(const ForkStateConstPtr& message);
   void on_steps(const StepReportConstPtr& message);
@@ -63,7 +62,7 @@ class WorkbenchPanel : public rviz::Panel {
   template <typename Service>  // switches and choices wait for its effect
   void ask(const std::string& service, const typename Service::Request& request);
 
-  QString node_ = "manipulation";  ///< relative to the namespace of rviz
+  NodeName node_{"manipulation"};
   ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;
   ForkStateConstPtr fork_;
   double fork_received_ = -1e9;  ///< [s]
