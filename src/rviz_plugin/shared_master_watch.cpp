@@ -29,7 +29,7 @@ const ros_common::MasterWatch& shared_master_watch() {
   static std::unique_ptr<WatchInThread> shared;
   if (!shared) {
     shared = std::make_unique<WatchInThread>();
-    ros_common::end_in_time([] { return quits || ros::isShuttingDown(); }, exit_timeout);
+    ros_common::end_in_time([] { return quits || ros::isShuttingDown(); }, EXIT_SUCCESS, exit_timeout);
     QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, [] {
       quits = true;
       shared.reset();
