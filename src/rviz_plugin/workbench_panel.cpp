@@ -197,9 +197,12 @@ void WorkbenchPanel::follow(const QString& node) {
 
 void WorkbenchPanel::subscribe() {
   ros::NodeHandle handle;
-  fork_subscriber_ = handle.subscribe(node_.of_node("fork"), 1, &WorkbenchPanel::on_fork, this);
-  steps_subscriber_ = handle.subscribe(node_.of_node("steps"), 200, &WorkbenchPanel::on_steps, this);
-  joy_subscriber_ = handle.subscribe(node_.beside("stylus/joy"), 1, &WorkbenchPanel::on_joy, this);
+  subscriptions_.replace();
+  subscriptions_.add<ForkState>(handle, node_.of_node("fork"), 1, [this](const auto& message) { on_fork(message); });
+  subscriptions_.add<StepReport>(handle, node_.of_node("steps"), 200,
+                                 [this](const auto& message) { figures_->add(panel_time(), message); });
+  subscriptions_.add<sensor_msgs::Joy>(handle, node_.beside("stylus/joy"), 1,
+                                       [this](const auto& message) { on_joy(message); });
   node_field_->setText(QString::fromStdString(node_.text()));
   fork_received_ = -1e9;
   show_silence();
@@ -209,8 +212,6 @@ void WorkbenchPanel::on_fork(const ForkStateConstPtr& message) {
   fork_ = message;
   fork_received_ = panel_time();
 }
-
-void WorkbenchPanel::on_steps(const StepReportConstPtr& message) { figures_->add(panel_time(), message); }
 
 void WorkbenchPanel::on_joy(const sensor_msgs::JoyConstPtr& message) {
   if (!message->buttons.empty() && panel_time() > free_at_) grasp_->setChecked(message->buttons[0] != 0);

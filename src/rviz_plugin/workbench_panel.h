@@ -1,16 +1,16 @@
 #pragma once
 
 #ifndef Q_MOC_RUN
-#include <ros/subscriber.h>
 #include <rviz/panel.h>
 #include <sensor_msgs/Joy.h>
 
 #include <memory>
 
 #include "node_name.h"
-#include "service_caller.h"
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/StepReport.h"
+#include "spring_workbench/ros/common/service_caller.h"
+#include "spring_workbench/ros/common/subscriptions.h"
 #endif
 
 class QCheckBox;
@@ -53,7 +53,6 @@ class WorkbenchPanel : public rviz::Panel {
   void subscribe();
 
   void on_fork(const ForkStateConstPtr& message);
-  void on_steps(const StepReportConstPtr& message);
   void on_joy(const sensor_msgs::JoyConstPtr& message);
   void refresh();
   void show_silence();
@@ -63,7 +62,6 @@ class WorkbenchPanel : public rviz::Panel {
   void ask(const std::string& service, const typename Service::Request& request);
 
   NodeName node_{"manipulation"};
-  ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;
   ForkStateConstPtr fork_;
   double fork_received_ = -1e9;  ///< [s]
   double free_at_ = 0.0;         ///< time from which switches and choices follow the node again [s]
@@ -75,7 +73,8 @@ class WorkbenchPanel : public rviz::Panel {
   QLineEdit *node_field_ = nullptr, *scene_ = nullptr;
   QLabel *held_ = nullptr, *answer_ = nullptr;
   StepFigures* figures_;
-  ServiceCaller services_;
+  ros_common::Subscriptions subscriptions_;
+  ros_common::ServiceCaller services_;
 };
 
 }  // namespace spring_workbench::rviz_plugin
