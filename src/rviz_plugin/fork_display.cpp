@@ -26,6 +26,7 @@ void ForkDisplay::setTopic(const QString& topic, const QString&) { topic_->setSt
 
 void ForkDisplay::subscribe() {
   if (!initialized()) return;
+  for (auto& [topic, fork] : forks_) fork.subscription.replace();
   forks_.clear();
   last_answer_.reset();
   if (!isEnabled() || topic_->getTopicStd().empty()) return;
@@ -42,13 +43,10 @@ void ForkDisplay::listen(const std::string& topic) {
   const auto [entry, is_new] = forks_.try_emplace(topic, scene_manager_, scene_node_);
   if (!is_new) return;
   Fork& fork = entry->second;
-  fork.subscriber = update_nh_.subscribe<ForkState>(
-      topic, 1,
-      [&fork](const ForkStateConstPtr& message) {
-        fork.newest = message;
-        fork.silence = 0.0;
-      },
-      nullptr, ros::TransportHints().tcpNoDelay());
+  fork.subscription.add<ForkState>(update_nh_, topic, 1, [&fork](const ForkStateConstPtr& message) {
+    fork.newest = message;
+    fork.silence = 0.0;
+  });
 }
 
 /// Subscribes to the topic and to all topics whose names extend it by _2, _3 and so on.

@@ -1,7 +1,6 @@
 #pragma once
 
 #ifndef Q_MOC_RUN
-#include <ros/subscriber.h>
 #include <rviz/display.h>
 
 #include <map>
@@ -11,6 +10,7 @@
 
 #include "drawn_fork.h"
 #include "shared_master_watch.h"
+#include "spring_workbench/ros/common/subscriptions.h"
 #endif
 
 namespace rviz {
@@ -42,7 +42,7 @@ class ForkDisplay : public rviz::Display {
     DrawnFork drawn;
     ForkStateConstPtr newest;  ///< not drawn yet
     double silence = 0.0;      ///< time since the newest message [s]
-    ros::Subscriber subscriber;
+    ros_common::Subscriptions subscription;
   };
   Q_SLOT void subscribe();
   void listen(const std::string& topic);

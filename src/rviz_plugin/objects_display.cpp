@@ -29,22 +29,19 @@ ObjectsDisplay::ObjectsDisplay() {
                                  "Shapes, ~scene_description of manipulation.", this, SLOT(subscribe()), this);
 }
 
-ObjectsDisplay::~ObjectsDisplay() { unsubscribe(); }
-
 void ObjectsDisplay::onInitialize() {
   objects_ = std::make_unique<SceneObjects>(scene_manager_, scene_node_);
   shared_master_watch();
 }
 
-void ObjectsDisplay::onEnable() { subscribe(); }
-
-void ObjectsDisplay::onDisable() { unsubscribe(); }
+void ObjectsDisplay::onDisable() {
+  subscriptions_.end();
+  clear();
+}
 
 void ObjectsDisplay::setTopic(const QString& topic, const QString&) { topic_->setString(topic); }
 
-void ObjectsDisplay::unsubscribe() {
-  objects_subscriber_.shutdown();
-  scene_subscriber_.shutdown();
+void ObjectsDisplay::clear() {
   scene_.reset();
   newest_.reset();
   frame_.clear();
@@ -53,23 +50,21 @@ void ObjectsDisplay::unsubscribe() {
 
 void ObjectsDisplay::subscribe() {
   if (!initialized()) return;
-  unsubscribe();
+  subscriptions_.replace();
+  clear();
   if (!isEnabled() || topic_->getTopicStd().empty() || scene_topic_->getTopicStd().empty()) return;
   setStatus(StatusProperty::Warn, "Topic", "No message yet");
   setStatus(StatusProperty::Warn, "Scene", "No description yet");
-  const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
-  objects_subscriber_ = update_nh_.subscribe(topic_->getTopicStd(), 1, &ObjectsDisplay::on_objects, this, at_once);
-  scene_subscriber_ = update_nh_.subscribe(scene_topic_->getTopicStd(), 1, &ObjectsDisplay::on_scene, this, at_once);
+  subscriptions_.add<ObjectStates>(update_nh_, topic_->getTopicStd(), 1,
+                                   [this](const auto& message) { newest_ = message; });
+  subscriptions_.add<SceneDescription>(update_nh_, scene_topic_->getTopicStd(), 1,
+                                       [this](const auto& message) { scene_ = message; });
 }
 
 void ObjectsDisplay::reset() {
   Display::reset();
   subscribe();
 }
-
-void ObjectsDisplay::on_scene(const SceneDescriptionConstPtr& message) { scene_ = message; }
-
-void ObjectsDisplay::on_objects(const ObjectStatesConstPtr& message) { newest_ = message; }
 
 /// The callbacks have just run in this thread, so the frame shows the newest message.
 void ObjectsDisplay::update(float wall_dt, float) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #ifndef Q_MOC_RUN
-#include <ros/subscriber.h>
 #include <rviz/display.h>
 
 #include <memory>
@@ -10,6 +9,7 @@
 #include "scene_objects.h"
 #include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/SceneDescription.h"
+#include "spring_workbench/ros/common/subscriptions.h"
 #endif
 
 namespace rviz {
@@ -25,7 +25,6 @@ class ObjectsDisplay : public rviz::Display {
   Q_OBJECT
  public:
   ObjectsDisplay();
-  ~ObjectsDisplay() override;
 
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
@@ -33,24 +32,22 @@ class ObjectsDisplay : public rviz::Display {
 
  protected:
   void onInitialize() override;
-  void onEnable() override;
+  void onEnable() override { subscribe(); }
   void onDisable() override;
 
  private:
   Q_SLOT void subscribe();
-  void on_scene(const SceneDescriptionConstPtr& message);
-  void on_objects(const ObjectStatesConstPtr& message);
   void describe();
   void place();
-  void unsubscribe();
+  void clear();
 
   rviz::RosTopicProperty *topic_, *scene_topic_;
-  ros::Subscriber objects_subscriber_, scene_subscriber_;
   SceneDescriptionConstPtr scene_;  ///< not built yet
   ObjectStatesConstPtr newest_;     ///< not drawn yet
   std::string frame_;               ///< frame of the poses; empty: nothing is shown
   double silence_ = 0.0;            ///< time since the newest valid message [s]
   std::unique_ptr<SceneObjects> objects_;
+  ros_common::Subscriptions subscriptions_;
 };
 
 }  // namespace spring_workbench::rviz_plugin

@@ -1,10 +1,12 @@
 #include "shared_master_watch.h"
 
 #include <QCoreApplication>
+#include <atomic>
 #include <memory>
 
-#include "exit_guard.h"
+#include "constants.h"
 #include "spring_workbench/ros/common/callback_thread.h"
+#include "spring_workbench/ros/common/end_in_time.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -19,15 +21,19 @@ struct WatchInThread {
   ros_common::MasterWatch watch{thread.handle(ros::NodeHandle())};
 };
 
+std::atomic<bool> quits{false};
+
 }  // namespace
 
 const ros_common::MasterWatch& shared_master_watch() {
   static std::unique_ptr<WatchInThread> shared;
   if (!shared) {
-    guard_exit();
     shared = std::make_unique<WatchInThread>();
-    if (const QCoreApplication* application = QCoreApplication::instance(); application != nullptr)
-      QObject::connect(application, &QCoreApplication::aboutToQuit, [] { shared.reset(); });
+    ros_common::end_in_time([] { return quits || ros::isShuttingDown(); }, EXIT_SUCCESS, exit_timeout);
+    QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, [] {
+      quits = true;
+      shared.reset();
+    });
   }
   return shared->watch;
 }

@@ -27,13 +27,12 @@
 #include "spring_workbench/SetIntegrator.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/tools/tool.h"
+#include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
 #include "step_figures.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
-
-const std::string node = "manipulation/";  // relative to the namespace of rviz, like all names here
 
 QComboBox* choice_of(const std::vector<std::string>& names, QWidget* parent) {
   auto* box = new QComboBox(parent);
@@ -51,6 +50,7 @@ WorkbenchPanel::WorkbenchPanel(QWidget* parent)
   answer_->setWordWrap(true);
   figures_ = new StepFigures(this);
   auto* layout = new QVBoxLayout(this);
+  layout->addLayout(make_node());
   layout->addWidget(controls_);
   layout->addWidget(figures_);
   layout->addWidget(answer_);
@@ -58,10 +58,20 @@ WorkbenchPanel::WorkbenchPanel(QWidget* parent)
   connect(this, &WorkbenchPanel::answered, answer_, &QLabel::setText, Qt::QueuedConnection);
 }
 
+QLayout* WorkbenchPanel::make_node() {
+  node_field_ = new QLineEdit(this);
+  node_field_->setToolTip("name of the node, relative to the namespace of rviz");
+  connect(node_field_, &QLineEdit::editingFinished, this, [this] { follow(node_field_->text()); });
+  auto* row = new QHBoxLayout;
+  row->addWidget(new QLabel("Node", this));
+  row->addWidget(node_field_);
+  return row;
+}
+
 template <typename Service>
 void WorkbenchPanel::ask(const std::string& service, const typename Service::Request& request) {
   free_at_ = panel_time() + settling;
-  services_.call<Service>(service, node + service, request);
+  services_.call<Service>(service, node_.of_node(service), request);
 }
 
 QWidget* WorkbenchPanel::make_controls() {
@@ -79,10 +89,11 @@ void WorkbenchPanel::make_dofs(QVBoxLayout* layout) {
   layout->addWidget(dofs_);
   connect(dofs_, &DofControls::switched, this, [this] { ask<SetForkDofs>("set_dofs", dofs_->dofs()); });
   connect(dofs_, &DofControls::stiffness_moved, this, [this](int i) {
-    services_.call<SetForkStiffness>("stiffness " + std::to_string(i), node + "set_stiffness", dofs_->stiffness(i));
+    services_.call<SetForkStiffness>("stiffness " + std::to_string(i), node_.of_node("set_stiffness"),
+                                     dofs_->stiffness(i));
   });
   connect(dofs_, &DofControls::damping_moved, this,
-          [this] { services_.call<SetForkDamping>("damping", node + "set_damping", dofs_->damping()); });
+          [this] { services_.call<SetForkDamping>("damping", node_.of_node("set_damping"), dofs_->damping()); });
 }
 
 void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
@@ -117,7 +128,7 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   connect(load, &QPushButton::clicked, this, [this] {
     LoadScene::Request request;
     request.scene = scene_->text().toStdString();
-    services_.call<LoadScene>("load_scene", node + "load_scene", request);
+    services_.call<LoadScene>("load_scene", node_.of_node("load_scene"), request);
   });
 }
 
@@ -127,9 +138,9 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     using Service = decltype(of_service);
     auto* button = new QPushButton(name, this);
     row->addWidget(button);
-    const std::string service = node + QString(name).toLower().toStdString();
+    const std::string service = QString(name).toLower().toStdString();
     connect(button, &QPushButton::clicked, this,
-            [this, service] { services_.call<Service>(service, service, typename Service::Request()); });
+            [this, service] { services_.call<Service>(service, node_.of_node(service), typename Service::Request()); });
   };
   add("Calibrate", Calibrate());
   add("Reset", std_srvs::Trigger());
@@ -142,7 +153,7 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     std_srvs::SetBool::Request request;
     request.data = on ? 1 : 0;
     free_at_ = panel_time() + settling;
-    services_.call<std_srvs::SetBool>("grasp", "tracker_driver/grasp", request);
+    services_.call<std_srvs::SetBool>("grasp", node_.beside("tracker_driver/grasp"), request);
   });
   auto* clutch = new QCheckBox("Clutch", this);
   clutch->setToolTip("on: the hand moves without its tool");
@@ -150,28 +161,57 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
   connect(clutch, &QCheckBox::clicked, this, [this](bool on) {
     SetClutch::Request request;
     request.on = on ? 1 : 0;
-    services_.call<SetClutch>("clutch", node + "clutch", request);
+    services_.call<SetClutch>("clutch", node_.of_node("clutch"), request);
   });
 }
 
 void WorkbenchPanel::onInitialize() {
-  ros::NodeHandle handle;
-  fork_subscriber_ = handle.subscribe(node + "fork", 1, &WorkbenchPanel::on_fork, this);
-  steps_subscriber_ = handle.subscribe(node + "steps", 200, &WorkbenchPanel::on_steps, this);
-  joy_subscriber_ = handle.subscribe("stylus/joy", 1, &WorkbenchPanel::on_joy, this);
+  subscribe();
   shared_master_watch();
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &WorkbenchPanel::refresh);
   timer->start(100);
-  refresh();
+}
+
+void WorkbenchPanel::load(const rviz::Config& config) {
+  rviz::Panel::load(config);
+  if (QString node; config.mapGetString("Node", &node)) follow(node);
+}
+
+void WorkbenchPanel::save(rviz::Config config) const {
+  rviz::Panel::save(config);
+  config.mapSetValue("Node", QString::fromStdString(node_.text()));
+}
+
+void WorkbenchPanel::follow(const QString& node) {
+  if (node.toStdString() == node_.text()) return;
+  try {
+    node_ = NodeName(node.toStdString());
+    subscribe();
+    Q_EMIT configChanged();
+  } catch (const validation::InputError& error) {
+    node_field_->setText(QString::fromStdString(node_.text()));
+    answer_->setText(error.what());
+  }
+}
+
+void WorkbenchPanel::subscribe() {
+  ros::NodeHandle handle;
+  subscriptions_.replace();
+  subscriptions_.add<ForkState>(handle, node_.of_node("fork"), 1, [this](const auto& message) { on_fork(message); });
+  subscriptions_.add<StepReport>(handle, node_.of_node("steps"), 200,
+                                 [this](const auto& message) { figures_->add(panel_time(), message); });
+  subscriptions_.add<sensor_msgs::Joy>(handle, node_.beside("stylus/joy"), 1,
+                                       [this](const auto& message) { on_joy(message); });
+  node_field_->setText(QString::fromStdString(node_.text()));
+  fork_received_ = -1e9;
+  show_silence();
 }
 
 void WorkbenchPanel::on_fork(const ForkStateConstPtr& message) {
   fork_ = message;
   fork_received_ = panel_time();
 }
-
-void WorkbenchPanel::on_steps(const StepReportConstPtr& message) { figures_->add(panel_time(), message); }
 
 void WorkbenchPanel::on_joy(const sensor_msgs::JoyConstPtr& message) {
   if (!message->buttons.empty() && panel_time() > free_at_) grasp_->setChecked(message->buttons[0] != 0);
@@ -180,16 +220,20 @@ void WorkbenchPanel::on_joy(const sensor_msgs::JoyConstPtr& message) {
 void WorkbenchPanel::refresh() {
   const double now = panel_time();
   const bool alive = now - fork_received_ < longest_silence;
-  if (alive != controls_->isEnabled() || (!alive && fork_)) {
-    controls_->setEnabled(alive);
-    answer_->setText(alive ? "" : "no data from manipulation: is it running?");
+  if (!alive && (controls_->isEnabled() || fork_)) show_silence();
+  if (alive && !controls_->isEnabled()) {
+    controls_->setEnabled(true);
+    answer_->clear();
   }
-  if (!alive) {
-    fork_.reset();
-    figures_->clear();
-  }
+  if (!alive) figures_->clear();
   if (fork_) show_fork();
   figures_->refresh(now);
+}
+
+void WorkbenchPanel::show_silence() {
+  fork_.reset();
+  controls_->setEnabled(false);
+  answer_->setText(QString::fromStdString("no data from " + node_.text() + ": is it running?"));
 }
 
 void WorkbenchPanel::show_fork() {

@@ -25,7 +25,7 @@ from tf2_msgs.msg import TFMessage
 from stack import DEADLINE, DOWN, Listener, diagnostic_values, stylus_transform, wait_for
 
 SCENE = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
-NODES = ["/contact_sound", "/manipulation", "/tracker_driver"]
+NODES = ["/contact_sound", "/manipulation", "/register_tracker", "/tracker_driver"]
 PERIOD = 0.01  # [s] of the samples
 OUTAGE = float(os.environ.get("MASTER_OUTAGE", "5"))  # [s]
 
@@ -84,6 +84,7 @@ class Master(unittest.TestCase):
         self.nodes = {}
         self.start("manipulation", "_scene:=" + SCENE)
         self.start("contact_sound", "_file:=" + sound, "contacts:=manipulation/contacts")
+        self.start("register_tracker", "--pivot", "--out", os.path.join(folder.name, "tip.yaml"))
 
     def start_driver(self, stylus):
         motion = ["_source:=motion_file", "_file:=" + self.hand, "_grasp_from:=1.0"]
@@ -145,6 +146,7 @@ class Master(unittest.TestCase):
             node.wait(DEADLINE)
             print("%s ended in %.2f s" % (name, time.monotonic() - begin))
         self.assertLess(time.monotonic() - begin, 2.0)
+        self.assertEqual(self.nodes["register_tracker"].returncode, 1)  # it has written no file
 
     def test_nothing_is_noticed_while_the_master_hangs(self):
         self.check(lambda: self.master.send_signal(signal.SIGSTOP))

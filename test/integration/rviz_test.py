@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """rviz with the panel, the fork's display and the marker of the mouse, operated by clicks and drags on a virtual
-display."""
+display; panels of nodes with other names, and what rviz saves of them."""
 import contextlib
 import os
 import shutil
@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 
+import roslib.packages
 import rospkg
 import rospy
 import rostest
@@ -87,32 +88,54 @@ class Picture:
         )
 
 
+def listeners(topic):
+    """The nodes that subscribe to a topic, by the master's list."""
+    return dict(rosgraph.Master("/test").getSystemState()[1]).get(topic, [])
+
+
+def switch_torsion(fork):
+    """Clicks down the panel's column of switches until torsion is switched, and leaves the pointer there."""
+    before = fork.next().torsion_on
+    for y in range(84, 300, 12):
+        xdotool("mousemove", 16, y, "sleep", 0.1, "click", 1)
+        with contextlib.suppress(AssertionError):  # most of the column is no switch of torsion
+            wait_for(lambda: fork.last.torsion_on != before, "torsion to be switched", 1.5)
+            return
+    raise AssertionError("no switch of torsion in the panel")
+
+
+class OnScreen(unittest.TestCase):
+    """A virtual display with a window manager, and a folder."""
+
+    def setUp(self):
+        rospy.set_param("/use_sim_time", False)
+        self.stack = contextlib.ExitStack()
+        self.addCleanup(self.stack.close)
+        self.folder = self.stack.enter_context(tempfile.TemporaryDirectory())
+        os.environ.update(self.stack.enter_context(screen(*SIZE)))
+        self.stack.enter_context(window_manager())
+
+
 @unittest.skipUnless(os.path.exists(PLUGINS), "the rviz plugins were not built")
 @unittest.skipUnless(
     all(map(shutil.which, ["Xvfb", "openbox", "xdotool", "import"])),
     "Xvfb, openbox, xdotool or ImageMagick is not installed",
 )
-class Rviz(unittest.TestCase):
+class Rviz(OnScreen):
     def setUp(self):
-        rospy.set_param("/use_sim_time", False)
+        super().setUp()
         self.fork, self.joy = Listener("manipulation/fork", ForkState), Listener("stylus/joy", Joy)
         self.objects = Listener("manipulation/objects", ObjectStates)
-        stack = contextlib.ExitStack()
-        self.addCleanup(stack.close)
-        folder = stack.enter_context(tempfile.TemporaryDirectory())
-        os.environ.update(stack.enter_context(screen(*SIZE)))
-        stack.enter_context(window_manager())
-        stack.enter_context(
+        self.stack.enter_context(
             Launched(
                 "workbench.launch",
                 "input:=mouse",
-                "rviz_config:=" + config(folder),
+                "rviz_config:=" + config(self.folder),
                 "scene:=package://spring_workbench/scenes/single_box.urdf",
                 "settings:=" + PACKAGE + "/config/demo_fork.yaml",
             )
         )
-        subscribers = lambda: dict(rosgraph.Master("/test").getSystemState()[1])
-        wait_for(lambda: "/rviz" in subscribers().get("/manipulation/fork", []), "the panel to listen")
+        wait_for(lambda: "/rviz" in listeners("/manipulation/fork"), "the panel to listen")
         self.picture = wait_for(lambda: (lambda p: p.ready and p)(Picture()), "rviz to show the scene")
         wait_for(lambda: self.fork.messages, "the hand")
         wait_for(lambda: Picture().colour(self.arrow()) != BACKGROUND, "the marker to be drawn")
@@ -162,14 +185,8 @@ class Rviz(unittest.TestCase):
         wait_for(lambda: self.joy.last.buttons[0] == down, "the grasp button %s" % ("down" if down else "up"), 15.0)
 
     def test_panel_switches_torsion(self):
-        box_column = 16
         self.assertTrue(self.fork.next().torsion_on)
-        for y in range(84, 300, 12):  # down the column of switches
-            xdotool("mousemove", box_column, y, "sleep", 0.1, "click", 1)
-            with contextlib.suppress(AssertionError):  # most of the column is no switch of torsion
-                wait_for(lambda: not self.fork.last.torsion_on, "torsion off", 1.5)
-                break
-        self.assertFalse(self.fork.next().torsion_on)
+        switch_torsion(self.fork)
         xdotool("click", 1)
         self.fork.next(lambda m: m.torsion_on, "torsion on again")
 
@@ -201,6 +218,85 @@ class Rviz(unittest.TestCase):
         self.assertAlmostEqual(there.pose.position.z, lying.z, delta=0.005)
 
 
+@unittest.skipUnless(os.path.exists(PLUGINS), "the rviz plugins were not built")
+@unittest.skipUnless(
+    all(map(shutil.which, ["Xvfb", "openbox", "xdotool", "import"])),
+    "Xvfb, openbox, xdotool or ImageMagick is not installed",
+)
+class Benches(OnScreen):
+    """Nodes in two namespaces, one of them with another name."""
+
+    NODES = ["/left/manipulation", "/right/bench"]
+
+    def setUp(self):
+        super().setUp()
+        self.forks = [Listener(node + "/fork", ForkState) for node in self.NODES]
+        for node in self.NODES:
+            namespace, name = node.rsplit("/", 1)
+            scene = "_scene:=package://spring_workbench/scenes/single_box.urdf"
+            program = roslib.packages.find_node("spring_workbench", "manipulation")
+            self.start(*program, scene, "__ns:=" + namespace, "__name:=" + name)
+        wait_for(lambda: all(fork.last for fork in self.forks), "the nodes")
+
+    def start(self, *command):
+        process = subprocess.Popen(command)
+        self.stack.callback(process.wait, DEADLINE)
+        self.stack.callback(process.kill)
+
+    def start_rviz(self, *nodes):
+        """rviz with a panel for each of the nodes; returns the path of its configuration."""
+        panels = [{"Class": "spring_workbench/Workbench", "Name": node, "Node": node} for node in nodes]
+        geometry = {"Width": SIZE[0], "Height": SIZE[1], "X": 0, "Y": 0}
+        path = os.path.join(self.folder, "panels.rviz")
+        with open(path, "w") as file:
+            yaml.safe_dump({"Panels": panels, "Window Geometry": geometry}, file)
+        self.start("rviz", "-d", path)
+        return path
+
+    def test_each_panel_follows_its_node(self):
+        self.start_rviz("left/manipulation", "/right/bench")
+        for node in self.NODES:
+            for topic in (node + "/fork", node + "/steps", node.rsplit("/", 1)[0] + "/stylus/joy"):
+                wait_for(lambda: "/rviz" in listeners(topic), "a panel to listen to " + topic)
+        wait_for(lambda: "/rviz" not in listeners("/manipulation/fork"), "no panel to follow the default node")
+
+    def type_node(self, text):
+        """Types into the uppermost field of the panel, which is the node's."""
+
+        def field():
+            shown = pixels(os.environ)
+            white = [[shown[3 * (y * SIZE[0] + x)] > 250 for x in range(60, 160)] for y in range(60, 400)]
+            return next((60 + y for y, row in enumerate(white) if all(row[:30]) or all(row[-30:])), None)
+
+        y = wait_for(field, "the field of the node")
+        xdotool("mousemove", 150, y + 4, "sleep", 0.3, "click", 1, "key", "ctrl+a", "type", text)
+        xdotool("key", "Return", "sleep", 0.5)
+
+    def saved(self, path):
+        """What rviz writes on Ctrl+S."""
+        os.remove(path)
+        xdotool("key", "ctrl+s")
+        wait_for(lambda: os.path.exists(path) and os.path.getsize(path) > 0, "rviz to save its configuration")
+        with open(path) as file:
+            return wait_for(lambda: file.seek(0) == 0 and yaml.safe_load(file), "its configuration")["Panels"][0]
+
+    def test_the_panel_is_given_another_node(self):
+        left, right = self.forks
+        path = self.start_rviz("left/manipulation")
+        wait_for(lambda: "/rviz" in listeners("/left/manipulation/fork"), "the panel to listen")
+        switch_torsion(left)
+        self.assertTrue(right.next().torsion_on)
+        switched = left.last.torsion_on
+        self.type_node("/right/bench")
+        wait_for(lambda: "/rviz" in listeners("/right/bench/fork"), "the panel to listen to the other node")
+        wait_for(lambda: "/rviz" not in listeners("/left/manipulation/fork"), "the panel to leave the first node")
+        switch_torsion(right)
+        self.assertEqual(left.next().torsion_on, switched)
+        self.type_node("no name!")
+        self.assertEqual(self.saved(path)["Node"], "/right/bench")
+        self.assertIn("/rviz", listeners("/right/bench/fork"))
+
+
 if __name__ == "__main__":
     rospy.init_node("rviz_test", disable_rostime=True)
-    rostest.rosrun("spring_workbench", "rviz_test", Rviz, sys.argv)
+    rostest.rosrun("spring_workbench", "rviz_test", "__main__", sys.argv)

@@ -8,11 +8,12 @@ import sys
 import tempfile
 import unittest
 
+import numpy
 import rosgraph
 import rospkg
 import rospy
 import rostest
-from geometry_msgs.msg import WrenchStamped
+from geometry_msgs.msg import TwistStamped, WrenchStamped
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates, ProbeReading
 from spring_workbench.srv import Calibrate, Release, SelectTool, SetClutch, SetForkDamping, SetForkStiffness
@@ -295,6 +296,37 @@ class Tools(unittest.TestCase):
         self.hand.run(2.0)  # it is followed there at a bounded speed
         self.assertEqual((self.fork_4.next().touched, self.probe_4.next().touched), ("box", "box"))
         self.assertEqual(self.fork.next().tool, "spring_fork")
+
+    def test_a_silent_stylus_delays_the_other_by_one_dropout(self):
+        """What is committed for the machine of the first hand waits for the second one's samples for `dropout_after`,
+        then goes on without it, and nothing is left out."""
+        dropout_after, late = 0.5, 0.5  # late: of the clock, for a message on a busy machine
+        self.lift()
+        self.hand.further = {2: (-0.03, 0.0, LIFTED[2])}
+        self.hand.run(0.5)
+        arrived = {"wrench": [], "tip_twist": []}
+        topics = [("wrench", WrenchStamped), ("tip_twist", TwistStamped)]
+        note = lambda m, topic: arrived[topic].append((m.header.stamp.to_sec(), self.hand.now().to_sec()))
+        listeners = [rospy.Subscriber("manipulation/" + t, kind, note, t, queue_size=1000) for t, kind in topics]
+        wait_for(lambda: self.hand.run(0.1) or all(arrived.values()), "wrench and twist")
+        begin = self.hand.now().to_sec()
+        second, self.hand.further = self.hand.further, {}
+        self.hand.run(4.0)
+        back = self.hand.now().to_sec()
+        self.hand.further = second
+        self.hand.run(1.0)
+        end = self.hand.now().to_sec()
+        for listener, (topic, pairs) in zip(listeners, arrived.items()):
+            wait_for(lambda: self.hand.run(0.1) or pairs[-1][0] > end, "the last " + topic)
+            listener.unregister()
+            lags = lambda since, until: [now - stamp for stamp, now in pairs if since < now < until]
+            waited, silent, again = lags(begin, begin + 1.5), lags(begin + 1.5, back), lags(back, end)
+            print("%s: waited %.2f s, then %.2f s, and %.2f s" % (topic, max(waited), max(silent), max(again)))
+            self.assertLess(max(waited), dropout_after + late)
+            self.assertLess(max(silent + again), late)
+            sample = Hand.STEP * Hand.SAMPLE
+            sent = {round(t / sample) for t in numpy.arange(begin + sample, end - sample, sample)}
+            self.assertLessEqual(sent, {round(stamp / sample) for stamp, _ in pairs})
 
     def test_each_hand_has_settings_of_its_own(self):
         """Both carry the box, each with its own springs. Setting the present values for both moves nothing."""

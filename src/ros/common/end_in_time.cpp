@@ -11,15 +11,17 @@
 
 namespace spring_workbench::ros_common {
 
-void end_in_time(std::function<bool()> ends) {
-  std::thread([ends = std::move(ends)] {
+void end_in_time(std::function<bool()> ends, int status) { end_in_time(std::move(ends), status, shutdown_timeout); }
+
+void end_in_time(std::function<bool()> ends, int status, double timeout) {
+  std::thread([ends = std::move(ends), status, timeout] {
     while (!ends()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    std::this_thread::sleep_for(std::chrono::duration<double>(shutdown_timeout));
+    std::this_thread::sleep_for(std::chrono::duration<double>(timeout));
     if (error_output_takes_more()) {
-      std::cerr << "shutdown has taken longer than 1.5 s, probably because the ROS master does not answer; exiting now"
-                << std::endl;
+      std::cerr << "shutdown has taken longer than " << timeout
+                << " s, probably because the ROS master does not answer; exiting now" << std::endl;
     }
-    std::_Exit(0);
+    std::_Exit(status);
   }).detach();
 }
 

@@ -4,17 +4,23 @@
 #include <sensor_msgs/Joy.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <atomic>
 #include <iostream>
 
 #include "spring_workbench/config/command_line.h"
 #include "spring_workbench/config/output_file.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/registration/touches.h"
+#include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/end_in_time.h"
+#include "spring_workbench/ros/common/master_watch.h"
 #include "spring_workbench/ros/common/parameters.h"
 
 namespace spring_workbench::register_tracker {
 namespace {
+
+std::atomic<bool> has_samples{false};  ///< before that, an interrupt ends the program without a file
 
 /// Collects samples of the stylus and its button from the running driver.
 class Listener {
@@ -22,6 +28,9 @@ class Listener {
   Listener()
       : tf_(node_.subscribe("/tf", 1000, &Listener::on_transforms, this)),
         joy_(node_.subscribe("stylus/joy", 1000, &Listener::on_buttons, this)) {}
+  ~Listener() { master_thread_.stop(); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
 
   /// Returns all samples until the button is released for the `count`th time.
   std::vector<motion::StylusSample> collect(std::size_t count) {
@@ -33,6 +42,7 @@ class Listener {
       std::cout << "touch " << seen << " of " << count << std::endl;
     }
     if (!ros::ok()) throw std::runtime_error("interrupted");
+    has_samples = true;
     return samples_;
   }
 
@@ -57,6 +67,8 @@ class Listener {
   std::vector<motion::StylusSample> samples_;
   bool pressed_ = false;
   std::size_t released_ = 0;
+  ros_common::CallbackThread master_thread_{"master"};
+  ros_common::MasterWatch master_watch_{master_thread_.handle(node_)};
   ros::Subscriber tf_, joy_;
 };
 
@@ -110,6 +122,7 @@ void run(const Options& options, int argc, char** argv) {
   registration::StoredRegistration present;
   if (options.motion.empty()) {
     ros::init(argc, argv, "register_tracker");
+    ros_common::end_in_time([] { return !has_samples && ros::isShuttingDown(); }, EXIT_FAILURE);
     samples = Listener().collect(options.pivot ? 1 : known.size());
     present = registration::read_registration(ros_common::private_parameters(ros::NodeHandle("tracker_driver")),
                                               "tracker_driver");

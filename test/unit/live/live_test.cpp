@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/validation/input_error.h"
@@ -91,6 +92,29 @@ TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
     EXPECT_EQ(bench.shown().time, interval * k);
     EXPECT_LT((bench.shown().tools.front().X_WH.translation() - hand_at(interval * k)).norm(), 1e-12) << k;
   }
+}
+
+/// What is committed waits for a hand that falls silent until it counts as silent, once, and then goes on as without
+/// it, through every sample of the other hand. A silent hand that comes back is waited for until its second sample.
+TEST(Commitment, ASilentHandIsWaitedForOnceAndThenDelaysNobody) {
+  Bench bench;
+  constexpr int last = 29, back = 200;  // the second hand is silent between these samples
+  const int silent = last + static_cast<int>(std::lround(simulation::SimulationSettings().dropout_after / interval));
+  std::set<double> stops;
+  for (int k = 0; k < 300; ++k) {
+    const double t = interval * k;
+    HandEvents events = bench.sample(k, k <= last || k >= back);
+    for (bool more = true; more; events = {}) {
+      more = bench.runner.cycle(events, {t + 0.1 * interval, t + 0.1 * interval}).more;
+      stops.insert(bench.runner.locked([](const auto& s) { return s.time(); }));
+    }
+    const bool waits = k > last && k < silent;
+    const int newest = waits ? last - 1 : k == back ? k - 2 : k - 1;
+    if (k > 0) {
+      EXPECT_EQ(*stops.rbegin(), interval * newest) << k;
+    }
+  }
+  for (int k = 1; k < 299; ++k) EXPECT_EQ(stops.count(interval * k), 1u) << k;
 }
 
 /// Stations of one tracker measure in turn, one per cycle. Each pose of the first hand is displayed in its own cycle,
