@@ -67,13 +67,8 @@ constexpr int most_solutions = 8;
 /// Largest number of solutions of one substep among movable bodies, each linearised about the loads of the last. Goes
 /// into `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
 constexpr int most_dynamic_solutions = 4;
-/// Largest number of iterations of solve_contacts(). Goes into `PressedAndShifted.Follow`.
-constexpr int most_sweeps = 200;
-/// Contacts that are solved at once where the iterations are not done. More: where meshes touch, steps cost several
-/// times as much. Test: none: not tried yet.
-constexpr std::size_t most_at_once = 12;
-/// Fraction of the largest load; the iterations end when no load changes by more. Goes into
-/// `Simulation.PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference`.
+/// Fraction of the displacement or velocity without loads; the contact problem is solved to it if a few iterations do
+/// it. Goes into `Simulation.PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference`.
 constexpr double small_change = 1e-6;
 /// [s]; longest substep among movable bodies if something is touched. Longer: friction and pushing are less exact. Goes
 /// into `DynamicContact.PushesANeighbourAlong`.

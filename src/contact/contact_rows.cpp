@@ -25,6 +25,16 @@ bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows) 
          std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return r.point.other == row.point.other; });
 }
 
+Matrix3d axes_of(const ContactRow& row) {
+  const Vector3d& n = row.point.n_W;
+  const Vector3d across = n.unitOrthogonal();
+  return (Matrix3d() << n, across, n.cross(across)).finished();
+}
+
+Eigen::Matrix<double, 3, 6> jacobian(const Matrix3d& axes, const ContactRow& row) {
+  return (Eigen::Matrix<double, 3, 6>() << axes.transpose(), -axes.transpose() * math::skew(row.lever_W)).finished();
+}
+
 double indentation(const std::vector<ContactRow>& rows, const ContactRow& at) {
   double load = 0.0;
   for (const ContactRow& row : rows) {

@@ -17,6 +17,11 @@ inline bool has_given(const ContactRow& row) { return row.impulse_W != Vector3d:
 /// Returns whether a row is compliant and there is a contact with the same other body.
 bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows);
 
+/// Axes [normal, across, across] of a contact, in world.
+Matrix3d axes_of(const ContactRow& row);
+/// Motion of a contact's point along its axes per motion of the body.
+Eigen::Matrix<double, 3, 6> jacobian(const Matrix3d& axes, const ContactRow& row);
+
 /// Returns by how much the materials at a contact are indented along its normal: their compliance times the normal
 /// loads of all contacts with the same body, which indent one surface together.
 double indentation(const std::vector<ContactRow>& rows, const ContactRow& at);

@@ -102,7 +102,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
       if (complies) work[i].gap += indentation(assumed, assumed[i]);
       worst = std::max(worst, -work[i].gap);
     }
-    solve_contacts(C, work);
+    solve_contacts(problem_, C, 0.1 * touching, work);
     // Done when solving again would not move the body, however the contacts share what they carry.
     const Wrench load = total_load(work), corrects = load - total_load(assumed);
     const auto moves = [&](const Wrench& by) {

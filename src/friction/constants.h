@@ -9,6 +9,10 @@ namespace spring_workbench::friction {
 /// Smallest part of the trace of a contact's response that counts as a response. Larger: contacts of nearly rigid
 /// bodies get no load. Test: none: no value tried makes one fail.
 constexpr double least_response = 1e-12;
+/// Largest residual that is sufficient, as a fraction of the largest motion without loads. Larger: loads are as much
+/// less exact where bodies hardly move, as in a short step. Test: ContactProblem.AShortStepIsSolvedAsWellAsALongOne
+/// at 1.
+constexpr double sufficient_share = 0.01;
 /// Gauss–Seidel iterations between two checks of the residual. Fewer: all contacts are solved together although
 /// iterations would do. Test: ContactProblem.AnEvenRowOfBoxesTakesIterationsAlone at 1.
 constexpr int most_iterations = 10;

@@ -89,8 +89,10 @@ class ContactStepper {
   const scene::Scene& scene_;
   collision::CollisionWorld& collision_;
   int levels_;
-  std::vector<double> radius_;        ///< of every body of the scene [m]
-  mutable bodies::TrialStart start_;  ///< start of the present trial, a member so that a step allocates nothing
+  std::vector<double> radius_;  ///< of every body of the scene [m]
+  // Members so that a step allocates little.
+  mutable bodies::TrialStart start_;  ///< start of the present trial
+  mutable friction::ContactProblem problem_;
 };
 
 }  // namespace spring_workbench::contact
