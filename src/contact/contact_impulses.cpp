@@ -1,4 +1,4 @@
-// The impulses of `ContactStepper`: what takes effect at once, between two pieces of a step.
+// The impulses of `ContactStepper`: what takes effect at once, between two substeps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,12 +30,12 @@ void ContactStepper::collide(bodies::SteppedBody& body, std::vector<ContactRow>&
   if (!approach) return;
   const Matrix6d mobility = body.mobility();
   const bool massless = mobility.isZero(0.0);  // takes no impulse, however long the substep
-  let_yield(contacts, hits, massless ? std::numeric_limits<double>::infinity() : substep, restitution);
+  set_impulse_compliance(contacts, hits, massless ? std::numeric_limits<double>::infinity() : substep, restitution);
   body.add_impulse(impact(problem_, mobility, to_vector(s.velocity), contacts, restitution, h));
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse_W += contacts[i].load_W;
 }
 
-void ContactStepper::settle(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const {
+void ContactStepper::correct_impulses(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const {
   const motion::MotionState s = body.object();
   std::vector<ContactRow> impulses = rows;
   for (ContactRow& impulse : impulses) {

@@ -43,11 +43,11 @@ double indentation(const std::vector<ContactRow>& rows, const ContactRow& at) {
   return at.compliance * load;
 }
 
-void let_yield(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
-               std::vector<double>& restitution) {
+void set_impulse_compliance(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
+                            std::vector<double>& restitution) {
   std::set<std::size_t> loaded, hit;  // others
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].load_W != Vector3d::Zero() || has_given(rows[i])) loaded.insert(rows[i].point.other);
+    if (rows[i].load_W != Vector3d::Zero() || has_impulse(rows[i])) loaded.insert(rows[i].point.other);
     if (hits[i]) hit.insert(rows[i].point.other);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -105,7 +105,7 @@ double ReducedContacts::prepare() {
     for (std::size_t p = c.parts_begin; p < c.parts_end; ++p)
       c.response += jacobian(parts_[p]).lazyProduct(jacobian(parts_[p]).transpose());
     const double trace = c.response.trace();
-    const bool complies = trace > 0.0 && c.response(0, 0) > least_response * trace;
+    const bool complies = trace > 0.0 && c.response(0, 0) > min_response * trace;
     c.scale = complies ? std::sqrt(3.0 / trace) : 0.0;
     if (!complies) {
       c.load.setZero();
@@ -118,7 +118,7 @@ double ReducedContacts::prepare() {
     c.across = mean + std::hypot(0.5 * (c.response(1, 1) - c.response(2, 2)), c.response(1, 2));
     c.inverse.setZero();
     const Eigen::LLT<Matrix3d> llt(c.response);
-    if (llt.info() == Eigen::Success && llt.rcond() > least_response) c.inverse = llt.solve(Matrix3d::Identity());
+    if (llt.info() == Eigen::Success && llt.rcond() > min_response) c.inverse = llt.solve(Matrix3d::Identity());
     c.motion *= c.scale;
     c.load = into_cone(c.load / c.scale, c.friction);
     for (std::size_t p = c.parts_begin; p < c.parts_end; ++p)
