@@ -1,4 +1,4 @@
-#include "swallowed.h"
+#include "containment.h"
 
 #include <limits>
 #include <utility>
