@@ -34,7 +34,8 @@ class ErrorSpread {
       guess[at(m)] -= missed_at_nodes[at(m)];
       x[at(m)] = done.x[at(m)] - guess[at(m)];
     }
-    NodeStrains r = steps.residual(equation, done.forcing, done.q0, done.q_dot0, x);
+    const exponential::Residual<n, Equation> residual(equation, propagator.part(), done.q0, done.q_dot0);
+    NodeStrains r = residual.at(done.forcing, x);
     for (int i = 0; i < n; ++i) r[at(i)] = done.residual[at(i)] - r[at(i)];
     propagator.drive(guess, propagator.part().in_modes(r), e);
     const Modes end = propagator.part().deviation(Propagator::at_end(e));

@@ -3,7 +3,8 @@
 #include "spring_workbench/exponential/anderson_mixer.h"
 #include "spring_workbench/exponential/convergence.h"
 #include "spring_workbench/exponential/exponential_collocation.h"
-#include "spring_workbench/exponential/extrapolation.h"
+#include "spring_workbench/exponential/residual.h"
+#include "spring_workbench/exponential/residual_history.h"
 
 namespace spring_workbench::exponential {
 
@@ -41,13 +42,13 @@ class CollocationStep {
   /// Replaces the linear part.
   void set(const typename Equation::ModalDecomposition& modes) {
     propagator_.set(modes);
-    smooth_.clear();
+    history_.clear();
   }
   void prepare(double h) { propagator_.prepare(h); }
   const Propagator& propagator() const { return propagator_; }
   const Convergence& convergence() const { return convergence_; }
   /// Whether the next step begins with the residual of the last one.
-  bool has_history() const { return !smooth_.empty(); }
+  bool has_history() const { return !history_.empty(); }
 
   struct Result {
     bool solved = false;  ///< otherwise the state must not be used
@@ -60,6 +61,7 @@ class CollocationStep {
     const Strain q0 = q, q_dot0 = q_dot, linear = part().force(q0, q_dot0);
     const Forcing forcing = equation.forcing(input, t + h * pack(Collocation::nodes));
     const NodeStrains by_forcing = equation.by_forcing(forcing, modes());
+    const Residual<n, Equation> residual(equation, part(), q0, q_dot0);
     NodeStrains r = first_residual(equation, input, t, h, q0, q_dot0, linear, by_forcing);
     NodeModes begin, begin_samples, in_modes = part().in_modes(r), x;
     propagator_.begin(q_dot0, begin, begin_samples);
@@ -68,28 +70,29 @@ class CollocationStep {
     const Forcing at_samples = equation.forcing(input, t + h * pack(Collocation::samples));
     const double squared_rounding = equation.squared_rounding(forcing, modes(), h, q0, q_dot0);
     const auto cancelled = [&] {
-      return rounding * rounding * propagator_.squared_effect(equation.cancelling(part(), q0, q_dot0));
+      return rounding * rounding *
+             norm().squared_effect(part().bound_in_modes(equation.cancelling(part(), q0, q_dot0)));
     };
     mixer_.restart();
     convergence_.begin_step();
     Modes reached, change, missed = Modes::Zero();
     do {
-      r = residual(equation, forcing, q0, q_dot0, x);
+      r = residual.at(forcing, x);
       in_modes = part().in_modes(r);
       propagator_.drive(begin, in_modes, mixer_.next());
-      const double squared_change = mixer_.take_change(x, propagator_.squared_weight());
+      const double squared_change = mixer_.take_change(x, norm().squared_weight());
       if (!(squared_change < 1e300)) return {false, Modes::Zero()};
       reached = Propagator::at_end(mixer_.last().x);
       change = Propagator::at_end(mixer_.last().change);
-      convergence_.add(squared_change, propagator_.squared_size(change),
-                       rounding * rounding * (propagator_.squared_size(reached) + squared_rounding), cancelled);
+      convergence_.add(squared_change, norm().squared_size(change),
+                       rounding * rounding * (norm().squared_size(reached) + squared_rounding), cancelled);
       if (convergence_.may_end()) {
         propagator_.drive_samples(begin_samples, in_modes, done_.x);
-        set_defect(residual(equation, at_samples, q0, q_dot0, done_.x), r);
+        done_.defect = part().in_modes(residual.defect(residual.at(at_samples, done_.x), r));
         missed = propagator_.end_effect(done_.defect);
-        convergence_.set_error(propagator_.squared_size(missed));
+        convergence_.set_error(norm().squared_size(missed));
       }
-      if (!convergence_.ended()) mixer_.mix(propagator_.squared_weight(), x);
+      if (!convergence_.ended()) mixer_.mix(norm().squared_weight(), x);
     } while (!convergence_.ended());
 
     const Modes end = part().deviation(reached);
@@ -102,69 +105,39 @@ class CollocationStep {
     done_.q_dot0 = q_dot0;
     done_.residual = r;
     done_.x = mixer_.last().x;
-    for (int i = 0; i < n; ++i) r[at(i)] = r[at(i)] - by_forcing[at(i)] + linear[i];
-    smooth_.keep(t, h, r);
+    history_.keep(t, h, linear, by_forcing, r);
     const bool solved = convergence_.converged() && end.allFinite();
-    if (!solved) smooth_.clear();
+    if (!solved) history_.clear();
     return {solved, error};
   }
 
-  /// The residual at modes `x` of a step that begins in (`q0`, `q_dot0`): the acceleration without the linear part.
-  SPRING_WORKBENCH_INLINE NodeStrains residual(const Equation& equation, const Forcing& forcing, const Strain& q0,
-                                               const Strain& q_dot0, const NodeModes& x) const {
-    NodeStrains dq, dv, q, q_dot, r;
-    part().deviation(x, dq, dv);
-    for (int i = 0; i < n; ++i) {
-      q[at(i)] = q0[i] + dq[at(i)];
-      q_dot[at(i)] = q_dot0[i] + dv[at(i)];
-    }
-    equation.acceleration(forcing, q.data(), q_dot.data(), r.data());
-    part().add_force(dq, dv, r);
-    return r;
-  }
-
-  void exchange(math::StateArchive& state) { state(propagator_, convergence_, smooth_); }
+  void exchange(math::StateArchive& state) { state(propagator_, convergence_, history_); }
 
  private:
   static constexpr double rounding = 1e-15;  ///< relative rounding error of a step
   static constexpr std::size_t at(int i) { return Propagator::at(i); }
   static math::Pack pack(const Collocation::Row& x) { return math::Pack{x[0], x[1], x[2], x[3]}; }
   const typename Propagator::Part& part() const { return propagator_.part(); }
+  const ModeNorm<2 * n>& norm() const { return propagator_.norm(); }
   const typename Equation::ModalDecomposition& modes() const { return propagator_.modes(); }
 
-  /// The residual at the nodes before the first iteration: extrapolated from the last step, or constant as at the
-  /// start.
+  /// The residual at the nodes before the first iteration: continued from the last step, or constant as at the start.
   SPRING_WORKBENCH_INLINE NodeStrains first_residual(const Equation& equation, const Input& input, double t, double h,
                                                      const Strain& q, const Strain& q_dot, const Strain& linear,
                                                      const NodeStrains& by_forcing) {
     NodeStrains r;
-    if (smooth_.extrapolate(t, h, r)) {
-      for (int i = 0; i < n; ++i) r[at(i)] -= linear[i];
-    } else {
-      convergence_.restart();
-      const Strain a = equation.acceleration(input, t, q, q_dot);
-      const NodeStrains start = equation.by_forcing(equation.forcing(input, t + math::Pack{}), modes());
-      for (int i = 0; i < n; ++i) r[at(i)] = a[i] - start[at(i)];
-    }
-    for (int i = 0; i < n; ++i) r[at(i)] += by_forcing[at(i)];
+    if (history_.extrapolate(t, h, linear, by_forcing, r)) return r;
+    convergence_.restart();
+    const Strain a = equation.acceleration(input, t, q, q_dot);
+    const NodeStrains start = equation.by_forcing(equation.forcing(input, t + math::Pack{}), modes());
+    for (int i = 0; i < n; ++i) r[at(i)] = a[i] - start[at(i)] + by_forcing[at(i)];
     return r;
-  }
-
-  /// Takes the residual at the samples and at the nodes.
-  SPRING_WORKBENCH_INLINE void set_defect(NodeStrains at_samples, const NodeStrains& at_nodes) {
-    for (int i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < Collocation::count; ++j) {
-        at_samples[at(i)] -= Collocation::at_samples()[j] * at_nodes[at(i)][j];
-      }
-    }
-    done_.defect = part().in_modes(at_samples);
   }
 
   Propagator propagator_;
   Convergence convergence_;
   AndersonMixer<static_cast<std::size_t>(2 * n)> mixer_;
-  /// Residual plus linear part, less the first-order effect of the forcing: smooth even where the forcing jumps.
-  Extrapolation<n> smooth_;
+  ResidualHistory<n> history_;
   Done done_;
 };
 

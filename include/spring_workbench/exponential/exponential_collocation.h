@@ -1,11 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "spring_workbench/exponential/collocation.h"
 #include "spring_workbench/exponential/linear_part.h"
 #include "spring_workbench/exponential/modal_operators.h"
+#include "spring_workbench/exponential/mode_norm.h"
 #include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::exponential {
@@ -41,23 +41,14 @@ class ExponentialCollocation {
     if (known_) return;
     known_ = true;
     ++revision_;
-    for (int m = 0; m < 2 * n; ++m) {
-      const double weight = 1.0 / std::max(1.0 / h_, abs(modes().rates[at(m)]));
-      squared_weight_[m] = weight * weight;
-    }
+    norm_.set(h_, modes().rates);
     operators_.compute(h_, modes().rates, modes().pairs);
   }
   /// Changes whenever the operators do; what has been derived from them is valid for one value.
   long revision() const { return revision_; }
 
-  /// Squared weights of the modes in sizes: that of a displacement is 1, of a rate min(h, 1/|rate of its mode|)².
-  const Modes& squared_weight() const { return squared_weight_; }
-  SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
-  /// Upper bound of the squared size of the change over a step by terms of this size in the acceleration.
-  double squared_effect(const Strain& accelerations) const {
-    const Modes rates = part_.bound_in_modes(accelerations);
-    return squared_size(rates.cwiseProduct(squared_weight_.cwiseSqrt()));
-  }
+  /// Of the modes, over the step.
+  const ModeNorm<2 * n>& norm() const { return norm_; }
   SPRING_WORKBENCH_INLINE static Modes at_end(const NodeModes& x) {
     Modes end;
     for (int m = 0; m < 2 * n; ++m) end[m] = x[at(m)][Collocation::count - 1];
@@ -148,7 +139,7 @@ class ExponentialCollocation {
   double h_ = 0.0;      ///< the step that the operators are for [s]; 0: none
   bool known_ = false;  ///< whether they have been computed
   long revision_ = 0;
-  Modes squared_weight_ = Modes::Zero();
+  ModeNorm<2 * n> norm_;
   Operators operators_;
 };
 

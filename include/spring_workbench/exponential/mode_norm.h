@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+
+#include "spring_workbench/exponential/general_complex.h"
+#include "spring_workbench/math/pack.h"
+
+namespace spring_workbench::exponential {
+
+/// The size of `count` modes over a step, in which the iteration and its errors are judged: displacements have the
+/// weight 1, rates the time in which they act, which is the step or, if that is shorter, the time 1/|rate| of their
+/// mode.
+template <int count>
+class ModeNorm {
+ public:
+  using Modes = Eigen::Matrix<double, count, 1>;
+
+  /// For steps of `h` [s] and the first `count` of `rates` [1/s].
+  template <typename Rates>
+  void set(double h, const Rates& rates) {
+    for (int m = 0; m < count; ++m) {
+      const double weight = 1.0 / std::max(1.0 / h, abs(rates[static_cast<std::size_t>(m)]));
+      squared_weight_[m] = weight * weight;
+    }
+  }
+  /// One per mode.
+  const Modes& squared_weight() const { return squared_weight_; }
+  SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
+  /// Upper bound of the squared size of the change over a step by derivatives of this size.
+  double squared_effect(const Modes& derivatives) const {
+    return squared_size(derivatives.cwiseProduct(squared_weight_.cwiseSqrt()));
+  }
+
+ private:
+  Modes squared_weight_ = Modes::Zero();
+};
+
+}  // namespace spring_workbench::exponential

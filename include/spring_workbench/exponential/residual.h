@@ -1,0 +1,51 @@
+#pragma once
+
+#include "spring_workbench/exponential/collocation.h"
+#include "spring_workbench/exponential/linear_part.h"
+
+namespace spring_workbench::exponential {
+
+/// The nonlinear residual of an `Equation` (CollocationStep) in a step that begins in (q₀, q̇₀): its acceleration
+/// without the linear part.
+template <int n, typename Equation>
+class Residual {
+ public:
+  using Part = LinearPart<n, typename Equation::ModalDecomposition>;
+  using Strain = typename Part::Strain;
+  using NodeModes = typename Part::NodeModes;
+  using NodeStrains = typename Part::NodeStrains;
+
+  /// All must outlive this.
+  Residual(const Equation& equation, const Part& part, const Strain& q0, const Strain& q_dot0)
+      : equation_(equation), part_(part), q0_(q0), q_dot0_(q_dot0) {}
+
+  /// At the moments of a forcing, where the modes of the deviation from the start are `x`.
+  SPRING_WORKBENCH_INLINE NodeStrains at(const typename Equation::Forcing& forcing, const NodeModes& x) const {
+    NodeStrains dq, dv, q, q_dot, r;
+    part_.deviation(x, dq, dv);
+    for (std::size_t i = 0; i < n; ++i) {
+      q[i] = q0_[static_cast<int>(i)] + dq[i];
+      q_dot[i] = q_dot0_[static_cast<int>(i)] + dv[i];
+    }
+    equation_.acceleration(forcing, q.data(), q_dot.data(), r.data());
+    part_.add_force(dq, dv, r);
+    return r;
+  }
+
+  /// The defect of the collocation polynomial through the residual at the nodes: the residual at the samples minus it.
+  SPRING_WORKBENCH_INLINE static NodeStrains defect(NodeStrains at_samples, const NodeStrains& at_nodes) {
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < Collocation::count; ++j) {
+        at_samples[i] -= Collocation::at_samples()[j] * at_nodes[i][j];
+      }
+    }
+    return at_samples;
+  }
+
+ private:
+  const Equation& equation_;
+  const Part& part_;
+  const Strain &q0_, &q_dot0_;
+};
+
+}  // namespace spring_workbench::exponential
