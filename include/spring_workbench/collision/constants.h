@@ -6,7 +6,8 @@
 namespace spring_workbench::collision {
 
 /// [m]; a body with a smaller gap above an object rests on it, and wakes when that object is grasped or falls; a body
-/// with a larger gap above all others falls at the start. Larger: it hangs in the air. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 0.1.
+/// with a larger gap above all others falls at the start. Larger: it hangs in the air. Test:
+/// Falling.WhatNothingCarriesFallsAndWhatStandsStays at 0.1.
 constexpr double support_gap = 1e-4;
 /// Of a contact's normal along z, from where on it carries. Larger: what lies on a slope falls, or floats when that is
 /// taken. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 1.
