@@ -126,7 +126,7 @@ class Stack:
         path = os.path.join(self.folder, "view.rviz")
         with open(path, "w") as file:
             yaml.safe_dump(config, file)
-        return self.start("rviz", "-d", path)
+        return self.start("rviz", "-d", path, "__name:=rviz")
 
     def pixels(self):
         raw = pixels(self.environment)
@@ -320,8 +320,8 @@ class Recovery(unittest.TestCase):
         """Meanwhile the panel's service calls wait for the master."""
         stack = self.stack
         stack.master()
-        stack.manipulation("single_box")
         self.open_rviz("objects")
+        stack.manipulation("single_box")
         stack.until(lambda: self.look()[0] > 100, "something to be drawn")
         pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
         client = subprocess.Popen([sys.executable, __file__, DEVEL, "load"], env=stack.environment, **pipes)
