@@ -112,7 +112,8 @@ std::optional<MaterialReading> MaterialEstimate::reading() const {
   reading.material = inverse(gives ? of_material : 0.0, interval);
   reading.material_deviation = gives ? fit->compliance_deviation / (of_material * of_material) : 0.0;
   const double stiffness = reading.touch.value, around = fit->quantile * stiffness * fit->lag_deviation;
-  reading.damping = {stiffness * fit->lag, stiffness * fit->lag - around, stiffness * fit->lag + around};
+  const double damping = stiffness * fit->lag - probe_damping_;
+  reading.damping = {damping, damping - around, damping + around};
   return reading;
 }
 

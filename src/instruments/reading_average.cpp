@@ -51,16 +51,19 @@ tools::Reading ReadingAverage::average(double Part::*integral, double present) c
 
 /// The path along the axis is that of the tip of an undeformed probe, relative to the touched body.
 void ReadingAverage::touch(double t, const tools::ToolState& tool, const RigidTransform& X_WT) {
-  const double stiffness = tool.stiffness.stretch, force = -tool.handle_wrench_H.force.z();
-  const bool continues =
-      touch_ && touch_->touched == tool.touched && touch_->probe_stiffness == stiffness && t >= touch_->t;
+  const double stiffness = tool.stiffness.stretch, damping = tool.probe_damping;
+  const double force = -tool.handle_wrench_H.force.z();
+  const bool continues = touch_ && touch_->touched == tool.touched && touch_->probe_stiffness == stiffness &&
+                         touch_->probe_damping == damping && t >= touch_->t;
   if (!continues) {
     touch_.reset();
     material_.reset();
   }
   if (tool.touched.empty() || !(force > 0.0) || (touch_ && t == touch_->t)) return;
   const RigidTransform X_TS = X_WT.inverse() * tool.X_WS;
-  if (!touch_) touch_ = Touch{t, tool.touched, stiffness, X_TS.linear().col(2), MaterialEstimate(stiffness)};
+  if (!touch_) {
+    touch_ = Touch{t, tool.touched, stiffness, damping, X_TS.linear().col(2), MaterialEstimate(stiffness, damping)};
+  }
   touch_->t = t;
   touch_->estimate.add(t, touch_->axis_T.dot(X_TS * Vector3d(0.0, 0.0, tool.length)), force);
   material_ = touch_->estimate.reading();

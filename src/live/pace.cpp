@@ -1,5 +1,7 @@
 #include "spring_workbench/live/pace.h"
 
+#include <cmath>
+
 #include "constants.h"
 
 namespace spring_workbench::live {
@@ -7,10 +9,17 @@ namespace spring_workbench::live {
 void Pace::committed(double simulated, double took, double lag) {
   if (!(simulated > 0.0)) return;
   const double cost = took / simulated;
-  cost_ = cost_ > 0.0 ? cost_ + new_cost_weight * (cost - cost_) : cost;
+  cost_ = measured_ && cost_ > 0.0 ? cost_ + new_cost_weight * (cost - cost_) : cost;
+  measured_ = true;
   behind_ |= lag > longest_lag && work(lag) > longest_lag;
 }
 
-bool Pace::can_look_ahead(double time) const { return work(time) <= longest_look_ahead; }
+bool Pace::can_look_ahead(double time) const { return measured_ && work(time) <= longest_look_ahead; }
+
+double Pace::end_of_cycle(double begin, double stop, double step) const {
+  if (!std::isfinite(begin) || (measured_ && work(stop - begin) <= longest_cycle)) return stop;
+  const double steps = measured_ ? std::floor(longest_cycle / work(step)) : 1.0;
+  return std::min(begin + std::max(steps, 1.0) * step, stop);
+}
 
 }  // namespace spring_workbench::live

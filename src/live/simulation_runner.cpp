@@ -81,9 +81,8 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
 /// While behind, poses are dropped, and buttons and sensors act at the time of the newest accepted pose.
 void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   was_behind_ |= pace_.is_behind();
-  if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event)) {
+  if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event))
     return std::visit([&](const auto& e) { apply(input, e); }, event);
-  }
   const double newest = simulation_.newest_sample();
   if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.report_arrival(pose->arrival, input.hand);
   if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_press(newest, button->press, input.hand);
@@ -91,7 +90,7 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
 }
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
-  report.advance = feed_.advance_to(stop);
+  report.advance = feed_.advance_to(pace_.end_of_cycle(feed_.committed(), stop, simulation_.settings().dynamics.step));
   report.prediction = ahead_.compare(simulation_);
   task_.observe(simulation_);
   ++revision_;
@@ -182,6 +181,7 @@ void SimulationRunner::restart() {
 simulation::ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
   const Lock lock(mutex_);
   const RecordedChange noted(*this, what, command);
+  if (!simulated_time_) pace_.changed();
   simulation::ChangeReport report = undo_.perform(command, simulation_);
   const bool taken_back = command.kind == Command::Kind::undo;
   if (taken_back || command.kind == Command::Kind::edit) scene_changed();

@@ -95,6 +95,7 @@ void Probe::describe(const RigidTransform& X_WH, ToolState& state) const {
   state.tip_wrench_W.force = push;
   state.handle_wrench_H.force = -(X_WH.linear().transpose() * push);
   state.elastic_energy = elastic_energy();
+  state.probe_damping = c_;
 }
 
 }  // namespace spring_workbench::tools

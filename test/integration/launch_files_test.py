@@ -148,7 +148,9 @@ class LaunchFiles(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             arguments = ["rviz:=false", "loop:=true", "record_size:=1", "record:=" + os.path.join(folder, "run")]
             with Launched("workbench.launch", *arguments):
-                wait_for(lambda: os.path.exists(folder + "/run_1.bag.active"), "a second bag", deadline=180.0)
+                second = folder + "/run_1.bag.active"
+                begun = lambda: os.path.exists(second) and os.path.getsize(second) > 1e5
+                wait_for(begun, "a second bag", deadline=180.0)
             self.assertLess(os.path.getsize(folder + "/run_0.bag"), 3e6)
             for name in ("run_0.bag", "run_1.bag"):
                 with rosbag.Bag(os.path.join(folder, name)) as bag:

@@ -5,6 +5,7 @@ Needs the setup file sourced; if the rviz plugins or a virtual display are missi
 (exit status 77). Usage: rviz_recovery_test.py DEVEL_SPACE"""
 import contextlib
 import os
+import select
 import shutil
 import signal
 import socket
@@ -15,7 +16,9 @@ import time
 import unittest
 from xmlrpc.client import ServerProxy
 
+import rospy
 import yaml
+from std_msgs.msg import Bool, String
 
 from screen import pixels, screen
 
@@ -36,6 +39,13 @@ DISPLAYS = {
     },
     "markers": {"Class": "rviz/MarkerArray", "Name": "Markers", "Marker Topic": "/manipulation/markers"},
 }
+
+
+class SendFilePath:
+    """The service of rviz, which has no Python module: an absolute path; whether it was loaded."""
+
+    _type, _md5sum = "rviz/SendFilePath", "*"
+    _request_class, _response_class = String, Bool
 
 
 def free_port():
@@ -83,6 +93,13 @@ class Stack:
     def manipulation(self, scene):
         return self.start(DEVEL + "/lib/spring_workbench/manipulation", "_scene:=%s%s.urdf" % (SCENES, scene))
 
+    def write_empty_view(self):
+        """Writes a configuration without panels and displays; returns its path."""
+        path = os.path.join(self.folder, "empty.rviz")
+        with open(path, "w") as file:
+            yaml.safe_dump({"Panels": [], "Visualization Manager": {"Class": "", "Displays": []}}, file)
+        return path
+
     def rviz(self, kind):
         config = {
             "Panels": [{"Class": "spring_workbench/Workbench", "Name": "Workbench"}],
@@ -109,7 +126,7 @@ class Stack:
         path = os.path.join(self.folder, "view.rviz")
         with open(path, "w") as file:
             yaml.safe_dump(config, file)
-        return self.start("rviz", "-d", path)
+        return self.start("rviz", "-d", path, "__name:=rviz")
 
     def pixels(self):
         raw = pixels(self.environment)
@@ -299,13 +316,55 @@ class Recovery(unittest.TestCase):
         finally:
             os.kill(master, signal.SIGCONT)
 
+    def test_panel_and_displays_are_removed_while_the_master_hangs(self):
+        """Meanwhile the panel's service calls wait for the master."""
+        stack = self.stack
+        stack.master()
+        self.open_rviz("objects")
+        stack.manipulation("single_box")
+        stack.until(lambda: self.look()[0] > 100, "something to be drawn")
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+        client = subprocess.Popen([sys.executable, __file__, DEVEL, "load"], env=stack.environment, **pipes)
+        self.addCleanup(client.wait)
+        self.addCleanup(client.kill)
+
+        def load(path):
+            begin = time.monotonic()
+            print(path, file=client.stdin, flush=True)
+            self.assertTrue(select.select([client.stdout], [], [], DEADLINE)[0], "rviz does not answer")
+            self.assertEqual(client.stdout.readline(), "True\n")
+            return time.monotonic() - begin
+
+        print("loaded in %.1f s" % load(os.path.join(stack.folder, "view.rviz")))
+        stack.until(lambda: self.look()[0] > 100, "something to be drawn again")
+        master = ServerProxy(stack.environment["ROS_MASTER_URI"]).getPid("/test")[2]
+        os.kill(master, signal.SIGSTOP)
+        try:
+            for y in range(84, 300, 12):  # down the panel's column of switches
+                command = ["xdotool", "mousemove", "16", str(y), "sleep", "0.05", "click", "1"]
+                subprocess.run(command, env=stack.environment, check=True)
+            print("removed in %.1f s" % load(stack.write_empty_view()))
+        finally:
+            os.kill(master, signal.SIGCONT)
+
     def open_rviz_with(self, kind):
         """Opens rviz and waits until something is drawn."""
         return self.start_rviz(kind, lambda: sum(p == BACKGROUND for p in self.stack.pixels()) > SIZE[0] * SIZE[1] // 4)
 
 
+def load_configurations():
+    """Has rviz load each configuration whose path is read, by one connection, which needs no master."""
+    rospy.init_node("loader", disable_rostime=True)
+    rospy.wait_for_service("/rviz/load_config_discarding_changes", DEADLINE)
+    load = rospy.ServiceProxy("/rviz/load_config_discarding_changes", SendFilePath, persistent=True)
+    for line in sys.stdin:
+        print(load(line.strip()).data, flush=True)
+
+
 if __name__ == "__main__":
-    if not os.path.exists(PLUGINS) or not all(map(shutil.which, ["Xvfb", "import", "rviz"])):
-        print("skipped: needs the rviz plugins, Xvfb and ImageMagick")
+    if sys.argv[2:] == ["load"]:
+        sys.exit(load_configurations())
+    if not os.path.exists(PLUGINS) or not all(map(shutil.which, ["Xvfb", "import", "rviz", "xdotool"])):
+        print("skipped: needs the rviz plugins, Xvfb, xdotool and ImageMagick")
         sys.exit(SKIPPED)
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

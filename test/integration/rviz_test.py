@@ -250,7 +250,7 @@ class Benches(OnScreen):
         path = os.path.join(self.folder, "panels.rviz")
         with open(path, "w") as file:
             yaml.safe_dump({"Panels": panels, "Window Geometry": geometry}, file)
-        self.start("rviz", "-d", path)
+        self.start("rviz", "-d", path, "__name:=rviz")
         return path
 
     def test_each_panel_follows_its_node(self):

@@ -20,7 +20,7 @@ struct MaterialReading {
   Estimate material;  ///< stiffness of the material alone [N/m]; `high` is infinite if the interval of the compliance
                       ///< contains 0
   double material_deviation = 0.0;  ///< its standard deviation, to first order [N/m]
-  Estimate damping;                 ///< damping in parallel with both springs [N·s/m]
+  Estimate damping;                 ///< damping of the material: of the touch without the probe's own damper [N·s/m]
 };
 
 /// Identifies stiffness and damping from one touch of the probe by least squares, with confidence intervals from
@@ -33,8 +33,9 @@ struct MaterialReading {
 /// path = b + Φ(F) / K, linear in b and 1 / K, with Gauss–Newton iterations for the time constant.
 class MaterialEstimate {
  public:
-  /// `probe_stiffness` [N/m], > 0, of the probe's own spring.
-  explicit MaterialEstimate(double probe_stiffness) : probe_stiffness_(probe_stiffness) {}
+  /// `probe_stiffness` [N/m], > 0, of the probe's own spring; `probe_damping` [N·s/m], ≥ 0, of its own damper.
+  explicit MaterialEstimate(double probe_stiffness, double probe_damping = 0.0)
+      : probe_stiffness_(probe_stiffness), probe_damping_(probe_damping) {}
 
   /// Adds a sample at time `t` [s], later than the last: the hand's position `path` along the probe's axis [m], from
   /// any origin and positive into the surface, and the force with which the probe pushes [N]. The oldest samples are
@@ -62,7 +63,7 @@ class MaterialEstimate {
   std::optional<Fit> fit() const;
   std::optional<Fit> fit_near(double lag) const;  ///< linearised about this time constant
 
-  double probe_stiffness_;
+  double probe_stiffness_, probe_damping_;
   std::deque<Sample> samples_;
 };
 

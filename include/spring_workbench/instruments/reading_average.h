@@ -39,7 +39,7 @@ class ReadingAverage {
   struct Touch {
     double t;
     std::string touched;
-    double probe_stiffness;
+    double probe_stiffness, probe_damping;
     Vector3d axis_T;  ///< axis of the probe at the start of the touch
     MaterialEstimate estimate;
   };

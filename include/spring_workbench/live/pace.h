@@ -16,10 +16,17 @@ class Pace {
   bool is_behind() const { return behind_; }
   /// Returns the time [s] that it takes to simulate `time` [s].
   double work(double time) const { return cost_ * time; }
-  /// Returns whether there is enough time to advance a copy by `time` [s] as well.
+  /// Returns whether there is enough time to advance a copy by `time` [s] as well; not after a change, until a commit.
   bool can_look_ahead(double time) const;
+  /// Returns the time up to which one cycle commits on the way from `begin` (−infinity: nothing is committed) to `stop`
+  /// [s]: whole steps of `step` [s], as many as can be simulated in a tenth of a second; one step if a change was made
+  /// and nothing committed since. The next cycle continues.
+  double end_of_cycle(double begin, double stop, double step) const;
+  /// Reports a change, after which the costs are not known.
+  void changed() { measured_ = false; }
 
  private:
+  bool measured_ = true;
   double cost_ = 0.0;  ///< time to simulate one second, smoothed [s]
   bool behind_ = false;
 };

@@ -106,8 +106,8 @@ class SimulationRunner {
                    const hand_input::InputSettings& input, bool simulated_time);
 
   /// Feeds the events and then commits up to the next sample or button edge, if at local time `now` the input is
-  /// complete up to there. In simulated time, everything that the samples before a new epoch determine is committed
-  /// before the epoch begins.
+  /// complete up to there; on the wall clock no more than Pace::end_of_cycle. In simulated time, everything that the
+  /// samples before a new epoch determine is committed before the epoch begins.
   CycleReport cycle(const HandEvents& events, const hand_input::LocalTime& now);
 
   /// Advances the displayed copy to the newest sample; with `latency` > 0 [s], further by `latency` and by the local

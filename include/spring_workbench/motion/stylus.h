@@ -42,7 +42,7 @@ class Stylus {
   /// Whether its pose at time `now` [s] is known from samples.
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
   /// Its motion from `now` to the next sample.
-  MotionSegment motion(double now) { return of_tool(track_.segment(now)); }
+  MotionSegment motion(double now) { return of_tool(track_.segment(std::max(now, track_.begin()))); }
   /// The same before a step has used it: the next sample may still change the velocity at its end.
   MotionSegment provisional(double now) const { return of_tool(track_.provisional(std::max(now, track_.begin()))); }
   /// The time after `now` at which the next segment of the motion begins; infinity if there is none.

@@ -53,6 +53,7 @@ struct ToolState {
   double force_angle = 0.0;       ///< angle Φ between that axis and the force on the tool, 0 … π [rad]
   double load = 0.0;              ///< load as a fraction of the scene's range of loads, 0 … 1 (LoadRange)
   bool clutch = false;            ///< whether the clutch is on: the hand moves without the tool
+  double probe_damping = 0.0;     ///< of the touching probe's own damper [N·s/m]
   double material_stiffness = 0.0;              ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
 };

@@ -8,6 +8,7 @@
 #include "support/held_cases.h"
 #include "support/matrix_exponential.h"
 #include "support/named.h"
+#include "support/tracked_hand.h"
 
 namespace spring_workbench::dynamics::integrator_laws_test {
 namespace {
@@ -91,6 +92,42 @@ TEST_P(EveryIntegrator, EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen
   }
   ASSERT_GT(all, 200);
   EXPECT_GT(within, 0.9 * all) << within << " of " << all;
+}
+
+/// Also from sample to sample of a tracked hand, whose acceleration jumps there.
+TEST_P(EveryIntegrator, EstimatesItsLocalErrorUnderATrackedHandWithinAFactorOfTen) {
+  int all = 0;
+  for (unsigned trial = 0; trial < 24; ++trial) {
+    std::mt19937 random(100 + trial);
+    const double zeta[] = {0.1, 0.5, 1.0, 3.0}, noise[] = {0.0, 1e-4, 1e-3};
+    const std::vector<std::string> shapes = test_support::shape_names();
+    Case c = random_case(shapes[trial % shapes.size()], zeta[trial % 4], 1.0, random);
+    motion::PoseTrack track = test_support::tracked_hand(0.3, noise[trial % 3], random);
+    const bool limited = limited_by_stiffness(GetParam());
+    const int parts = limited ? static_cast<int>(std::ceil(0.02 * c.omega * (1.0 + zeta[trial % 4]) / 0.2)) : 1;
+    const int finer = 10 + static_cast<int>(std::ceil(20.0 * (1.0 + zeta[trial % 4]) * 0.02 / parts * c.omega));
+    const auto integrator = test_support::make_integrator(GetParam()),
+               reference = dynamics::make_integrator(dynamics::IntegratorKind::rk4);
+    StrainState state = c.held.zero_state();
+    for (double t = 0.0; t < 0.19;) {
+      c.hand = track.segment(t);
+      const double end = c.hand.end(), h = (end - t) / parts;
+      for (int part = 0; part < parts; ++part) {
+        const StrainState begin = state;
+        const double at = t + part * h;
+        const StepEstimate e = integrator->step(c.held, c.hand, at, h, state);
+        const StrainState exact = carried(*reference, c, at, h / finer, finer, begin);
+        const double truth = distance(c, at + h, state, exact);
+        if (!(truth > 1e-12)) continue;  // rounding
+        const double ratio = distance(c, at + h, {exact.q + e.q_error, exact.q_dot}, exact) / truth;
+        EXPECT_GT(ratio, 0.1) << trial << " " << at;
+        EXPECT_LT(ratio, 10.0) << trial << " " << at;
+        ++all;
+      }
+      t = end;
+    }
+  }
+  EXPECT_GT(all, 200);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator,

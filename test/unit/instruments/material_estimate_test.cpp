@@ -21,9 +21,10 @@ struct Touch {
   double force(double t) const { return stiffness * d(t) + damping * d_dot(t); }
 };
 
-MaterialEstimate estimate_of(const Touch& touch, double probe, double noise, std::mt19937& random) {
+MaterialEstimate estimate_of(const Touch& touch, double probe, double noise, std::mt19937& random,
+                             double own_damping = 0.0) {
   std::normal_distribution<double> normal(0.0, 1.0);
-  MaterialEstimate estimate(probe);
+  MaterialEstimate estimate(probe, own_damping);
   for (double t = 0.0; t < touch.duration; t += kInterval) {
     if (touch.force(t) > 0.0) estimate.add(t, 0.3 + touch.d(t) + noise * normal(random), touch.force(t));
   }
@@ -65,14 +66,17 @@ TEST(MaterialEstimate, IntervalsHaveTheirNominalCoverage) {
   EXPECT_NEAR(static_cast<double>(damping_covered) / touches, 0.95, 0.02);
 }
 
+/// Of the material: what is left of the touch's damping beyond the probe's own damper.
 TEST(MaterialEstimate, FindsTheTrueDamping) {
-  std::mt19937 random(3);
   const Touch touch{2e3, 400.0, 0.05, 4.0, 0.4};
-  const auto reading = estimate_of(touch, 1e5, kNoise, random).reading();
-  ASSERT_TRUE(reading);
-  EXPECT_NEAR(reading->damping.value, touch.damping, 0.05 * touch.damping);
-  EXPECT_NEAR(reading->touch.value, touch.stiffness, 0.02 * touch.stiffness);
-  EXPECT_GT(reading->damping.low, 0.0);
+  for (const double own : {0.0, 150.0}) {
+    std::mt19937 random(3);
+    const auto reading = estimate_of(touch, 1e5, kNoise, random, own).reading();
+    ASSERT_TRUE(reading);
+    EXPECT_NEAR(reading->damping.value, touch.damping - own, 0.05 * touch.damping);
+    EXPECT_NEAR(reading->touch.value, touch.stiffness, 0.02 * touch.stiffness);
+    EXPECT_GT(reading->damping.low, 0.0);
+  }
 }
 
 /// A touch that starts with an impact on a damper: there is a force before the spring is compressed.

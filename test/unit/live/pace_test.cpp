@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <iostream>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -152,6 +153,69 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
   stop = true;
   loop.join();
   EXPECT_GT(time_skipped, 0.0);
+}
+
+TEST(Pace, ACycleCommitsWhatItCanSimulateInTime) {
+  Pace pace;
+  EXPECT_EQ(pace.end_of_cycle(1.0, 3.0, 0.01), 3.0);  // nothing is known yet
+  pace.committed(0.01, 0.02, 0.0);
+  EXPECT_EQ(pace.end_of_cycle(1.0, 1.049, 0.01), 1.049);
+  EXPECT_NEAR(pace.end_of_cycle(1.0, 1.06, 0.02), 1.04, 1e-12);
+  EXPECT_NEAR(pace.end_of_cycle(1.0, 3.0, 0.1), 1.1, 1e-12);
+  EXPECT_EQ(pace.end_of_cycle(1.0, 1.06, 0.1), 1.06);
+  pace.changed();
+  EXPECT_NEAR(pace.end_of_cycle(1.0, 3.0, 1e-6), 1.000001, 1e-12);
+  EXPECT_FALSE(pace.can_look_ahead(1e-3));
+  pace.committed(1e-6, 1e-9, 0.0);  // not averaged with what was before
+  EXPECT_EQ(pace.end_of_cycle(1.0, 100.0, 1e-6), 100.0);
+  EXPECT_TRUE(pace.can_look_ahead(1.0));
+}
+
+/// A hand that shakes an object falls silent, and each step takes a microsecond: the silence is simulated in parts, and
+/// the replayed journal leads to the same bits.
+TEST(Pace, ASilenceThatCannotBeSimulatedInTimeKeepsNobodyWaiting) {
+  const Vector3d grip(0.0, 0.0, 0.7);
+  const scene::Scene scene =
+      scene_of({box("box", Vector3d(0.1, 0.06, 0.04), 1.0, grip + Vector3d(0.0, 0.0, -0.2))}, scene::ContactMode::none);
+  SimulationRunner runner(scene, simulation::SimulationSettings(), hand_input::InputSettings(), false);
+  runner.keep_journal(true);
+  const auto cycle = [&](const HandEvents& events, double now) { return runner.cycle(events, {now, now}); };
+  double t = 0.0;
+  for (int k = 0; k < 50; ++k) {
+    t = 0.01 * k;
+    HandEvents events;
+    if (k == 0) events[0].emplace_back(NewEpoch{1'000'000'000});
+    StylusPose pose;
+    const Vector3d p = grip + Vector3d(0.1 * std::sin(20.0 * t), 0.0, 0.0);
+    pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
+    pose.arrival = {t, t};
+    events[0].emplace_back(pose);
+    if (k == 1) events[0].emplace_back(StylusButton{t, motion::Press::grasp});
+    while (cycle(events, t).more) events.clear();
+  }
+  EXPECT_TRUE(runner.locked([](const auto& s) { return s.objects()[0].held; }));
+  Command command;
+  command.kind = Command::Kind::settings;
+  command.dynamics_change.integrator = dynamics::IntegratorKind::rk4;
+  command.dynamics_change.step = 1e-6;
+  runner.change("set_integrator", command);
+  const double silent_since = runner.locked([](const auto& s) { return s.time(); });
+  double longest = 0.0, took = 0.0;
+  for (int cycles = 0; cycles < 20; ++cycles) {  // half a second of silence at once, and more
+    const CycleReport report = cycle({}, t + 0.6 + 0.05 * cycles);
+    longest = std::max(longest, report.wall_time);
+    took += report.wall_time;
+  }
+  const double simulated = runner.locked([](const auto& s) { return s.time(); }) - silent_since;
+  std::cout << "simulated " << simulated << " s in " << took << " s, a cycle at most " << longest << " s\n";
+  EXPECT_GT(simulated, 0.0);
+  EXPECT_LT(longest, 0.1 + 0.5 * took);  // in one go, the first cycles take nearly all the time
+  EXPECT_LT(longest, 1.0);
+  Replayer replayer{[&](const std::string&) { return scene; }, {}};
+  for (const Entry& entry : runner.take_journal()) replayer.play(entry, [](auto&, auto&) {});
+  runner.note_state();
+  for (const Entry& entry : runner.take_journal()) replayer.play(entry, [](auto&, auto&) {});
+  EXPECT_EQ(replayer.simulation()->state_hash(), runner.locked([](const auto& s) { return s.state_hash(); }));
 }
 
 /// A scene with many objects is built concurrently with the cycles and swapped in between two of them.

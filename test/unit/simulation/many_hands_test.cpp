@@ -188,6 +188,24 @@ TEST(ManyHands, AReleasingHandLeavesTheWeightToTheOthers) {
   }
 }
 
+/// Of two styluses of one tracker, whose stamps are equal but for rounding, the second one begins in the middle: it
+/// grasps, or touches with its probe, at its first sample.
+TEST(ManyHands, AFirstSampleThatIsARoundingErrorLaterIsOfTheSameTime) {
+  for (const tools::Tool tool : {tools::Tool::spring_fork, tools::Tool::spring, tools::Tool::spring_probe}) {
+    for (const double later : {-4e-10, -1e-15, 0.0, 1e-15, 4e-10}) {
+      Simulation s(plate(), with(2));
+      s.select_tool(tool, 1);
+      const Vector3d above(0.05, 0.0, tool == tools::Tool::spring_probe ? 0.71 : 0.7);
+      for (int k = 0; k <= 20; ++k) s.push_stylus({0.02 * k, pointing_down(Vector3d(0.3, 0.0, 0.7))});
+      for (int k = 5; k <= 20; ++k) s.push_stylus({0.02 * k + later, pointing_down(above)}, 1);
+      s.push_button(0.1 + later, true, 1);
+      for (int k = 1; k <= 20; ++k) ASSERT_NO_THROW(s.advance(0.02 * k)) << later;
+      const tools::ToolState f = s.fork(1);
+      EXPECT_EQ(tool == tools::Tool::spring_probe ? f.touched : f.held_object, "plate") << later;
+    }
+  }
+}
+
 TEST(ManyHands, ThatAreNotUsedChangeNothing) {
   Apart one(1, 1), many(255, 1);
   const AdvanceReport of_one = one.simulation.advance(1.2), of_many = many.simulation.advance(1.2);

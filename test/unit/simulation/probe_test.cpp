@@ -24,9 +24,9 @@ SimulationSettings with_probe(double stiffness) {
   return set;
 }
 
-/// A fixed block whose top is at 0.1 m.
-scene::Scene block_of(double material) {
-  scene::Scene scene = scene_of({box("block", {0.2, 0.2, 0.1}, 0.0, Vector3d(0, 0, 0.05))}, scene::ContactMode::stop);
+/// A block whose top is at 0.1 m; without mass it is fixed.
+scene::Scene block_of(double material, double mass) {
+  scene::Scene scene = scene_of({box("block", {0.2, 0.2, 0.1}, mass, Vector3d(0, 0, 0.05))}, scene::ContactMode::stop);
   scene.bodies[0].material.stiffness = material;
   return scene;
 }
@@ -35,13 +35,13 @@ scene::Scene block_of(double material) {
 /// what its tool tells as an instrument, whose tracker adds `noise` [m] to the hand's place. Returns the last touch at
 /// its end.
 struct Press {
-  double material, probe, depth, duration = 2.0, noise = 0.0;
+  double material, probe, depth, duration = 2.0, noise = 0.0, mass = 0.0;
 
   template <typename Tell>
   instruments::ReadingAverage run(unsigned seed, Tell&& tell) const {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0.0, noise);
-    Simulation simulation(block_of(material), with_probe(probe));
+    Simulation simulation(block_of(material, mass), with_probe(probe));
     instruments::ReadingAverage readings, of_touch;
     const int samples = static_cast<int>(duration / 0.02);
     const auto height = [&](double t) {
@@ -53,7 +53,7 @@ struct Press {
       simulation.advance(0.02 * k);
       tools::ToolState tool = simulation.fork();
       tool.X_WS.translation() += Vector3d(normal(random), normal(random), normal(random));
-      readings.take(0.02 * k, tool);
+      readings.take(0.02 * k, tool, mass > 0.0 ? object(simulation, "block").X_WO : RigidTransform::Identity());
       if (!tool.touched.empty()) of_touch = readings;
       tell(tool);
     }
@@ -115,6 +115,23 @@ TEST(Probe, MeasuresTheMaterialThroughATrackersNoise) {
   }
   EXPECT_NEAR(static_cast<double>(covered) / touches, 0.95, 0.02);
   EXPECT_GT(sure, 200);
+}
+
+/// The probe has a damper of its own on an object that can move, which is not the material's: that has none.
+TEST(Probe, OfAMovableBlockItReadsNoDamping) {
+  int covered = 0, damping_covered = 0;
+  constexpr unsigned touches = 100;
+  for (unsigned i = 0; i < touches; ++i) {
+    bool damped = false;
+    const Press press{1e4, 2e3, 0.03, 2.0, 5e-4, 3.0};
+    const auto reading =
+        press.run(i, [&](const tools::ToolState& tool) { damped |= tool.probe_damping > 10.0; }).material();
+    ASSERT_TRUE(reading && damped) << i;
+    covered += reading->material.low <= 1e4 && 1e4 <= reading->material.high ? 1 : 0;
+    damping_covered += reading->damping.low <= 0.0 && 0.0 <= reading->damping.high ? 1 : 0;
+  }
+  EXPECT_GE(covered, 88);
+  EXPECT_GE(damping_covered, 88);
 }
 
 TEST(Probe, ARigidBodyReadsAsInfinite) {

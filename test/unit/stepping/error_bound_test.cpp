@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/stepping/step_control.h"
 #include "support/held_cases.h"
 #include "support/named.h"
+#include "support/tracked_hand.h"
 
 namespace spring_workbench::stepping::error_bound_test {
 namespace {
@@ -23,27 +23,6 @@ constexpr double rounding = 1e-12;  // [m]; errors below it count as bounded
 int number_of_runs() {
   const char* asked = std::getenv("SPRING_WORKBENCH_BOUND_RUNS");
   return asked != nullptr ? std::atoi(asked) : 84;
-}
-
-/// A hand on sines of 1 to 2 Hz as a tracker would see it: its acceleration jumps at each sample.
-motion::PoseTrack sampled_hand(double duration, double noise, std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::normal_distribution<double> normal;
-  const auto vector = [](auto& of) {
-    const double x = of(), y = of(), z = of();
-    return Vector3d(x, y, z);
-  };
-  const auto any = [&] { return uniform(random); };
-  const auto jitter = [&] { return noise * normal(random); };
-  const Vector3d rate = 2.0 * M_PI * (Vector3d::Constant(1.5) + 0.5 * vector(any)), phase = M_PI * vector(any);
-  const Vector3d width = 0.1 * vector(any), turn = 0.5 * vector(any);
-  motion::PoseTrack track;
-  for (double t = 0.0; t < duration + 0.01; t += 0.02) {
-    const Vector3d s = (rate * t + phase).array().sin();
-    const Vector3d place = width.cwiseProduct(s) + vector(jitter), angle = turn.cwiseProduct(s) + 5.0 * vector(jitter);
-    track.push({t, make_transform(Quaterniond(math::exp_so3(angle)), place)});
-  }
-  return track;
 }
 
 /// Every damping ratio, shape, set of DOFs and noise of the hand in turn.
@@ -80,7 +59,7 @@ void run_one(int run, double duration, const std::string& integrator, Found& fou
   std::mt19937 random(static_cast<unsigned>(1000 + run));
   Case c = seeded_case(run, random);
   const double noise[] = {0.0, 1e-4, 1e-3};
-  motion::PoseTrack track = sampled_hand(duration, noise[run % 3], random);
+  motion::PoseTrack track = test_support::tracked_hand(duration, noise[run % 3], random);
   const StepControl control(test_support::make_integrator(integrator), 0.0, true);
   const auto exact = dynamics::make_integrator(IntegratorKind::exponential),
              exact_step = dynamics::make_integrator(IntegratorKind::exponential);
@@ -161,7 +140,7 @@ TEST_P(BoundOf, ChangesNoBitOfTheMotionAndIsNoneWhereItIsOff) {
   for (int run = 0; run < 21; ++run) {
     std::mt19937 random(static_cast<unsigned>(run));
     Case c = seeded_case(run, random);
-    motion::PoseTrack track = sampled_hand(0.3, 1e-3, random);
+    motion::PoseTrack track = test_support::tracked_hand(0.3, 1e-3, random);
     const double tolerance = run % 7 == 4 ? 1e-3 : 0.0;
     const StepControl with(test_support::make_integrator(GetParam()), tolerance, true),
         without(test_support::make_integrator(GetParam()), tolerance, false);
@@ -183,7 +162,7 @@ TEST(ErrorBound, IsNoneInContactAndBeginsAnewAfterItAndAfterAChangeFromOutside) 
   for (const bool by_contact : {true, false}) {
     std::mt19937 random(3);
     Case c = seeded_case(48, random);
-    motion::PoseTrack track = sampled_hand(0.2, 0.0, random);
+    motion::PoseTrack track = test_support::tracked_hand(0.2, 0.0, random);
     const StepControl control(test_support::make_integrator("exponential"), 0.0, true);
     StepControl::Memory memory;
     StrainState state = c.held.zero_state();
