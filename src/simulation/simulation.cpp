@@ -169,7 +169,7 @@ struct Simulation::Impl {
   double next_sample(double after) const;
   double next_edge() const;
   double end_of_step(double t_end) const;
-  bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
+  Hand* beyond_limit(const Slipping& slipping, Wrench& limited_W);
   std::vector<objects::Carried> carried;  ///< bodies of one step; a member to reuse its memory, like `together`
   std::vector<Hand*> together;            ///< hands on one object
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
@@ -320,20 +320,17 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   for (Hand& hand : hands) hand.end_step(report);
 }
 
-/// Finds the hands that exceed their limit now, and have to release or slip. Returns false if there are no more.
-bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go) {
-  const std::size_t slipped = slipping.size();
+/// The hand that now exceeds its limit most, with its limited wrench; null if there is none. Once it has given way,
+/// others may be within theirs.
+Hand* Simulation::Impl::beyond_limit(const Slipping& slipping, Wrench& limited_W) {
+  Hand* worst = nullptr;
+  double least = 1.0;
   for (Hand& hand : hands) {
     if (slipping.count(&hand) > 0 || !hand.springs()) continue;
-    const std::optional<Wrench> pull = instruments::limited_wrench(settings.limit, hand.state(now));
-    if (!pull) continue;
-    if (settings.limit.action == tools::LimitAction::slip) {
-      slipping[&hand] = *pull;
-    } else {
-      let_go.push_back(&hand);
-    }
+    const instruments::LimitedWrench limited = instruments::limited_wrench(settings.limit, hand.state(now));
+    if (limited.share < least) std::tie(worst, least, limited_W) = std::tuple(&hand, limited.share, limited.W);
   }
-  return slipping.size() > slipped || !let_go.empty();
+  return worst;
 }
 
 /// Takes a step. If a tool would exceed its limit, the step is repeated without it, or with its limit wrench
@@ -343,17 +340,18 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   const bool limited = std::isfinite(settings.limit.force) || std::isfinite(settings.limit.moment);
   const AdvanceReport so_far = report;
   Slipping slipping;
-  std::vector<Hand*> let_go;
+  Wrench limited_W;
   math::StateArchive start;
   if (limited) exchange(start);
   carry(h, slipping, report);
-  while (limited && beyond_limits(slipping, let_go)) {
+  while (Hand* hand = limited ? beyond_limit(slipping, limited_W) : nullptr) {
     set(start.taken());
     report = so_far;
-    with_handover([&] {
-      for (Hand* hand : let_go) hand->let_go(settings.grasp.release == tools::Release::thrown, now);
-    });
-    let_go.clear();
+    if (settings.limit.action == tools::LimitAction::slip) {
+      slipping[hand] = limited_W;
+    } else {
+      with_handover([&] { hand->let_go(settings.grasp.release == tools::Release::thrown, now); });
+    }
     start = math::StateArchive();
     exchange(start);
     carry(h, slipping, report);

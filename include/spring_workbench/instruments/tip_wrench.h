@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 
 #include "spring_workbench/motion/external_wrench.h"
 #include "spring_workbench/tools/settings.h"
@@ -16,14 +15,18 @@ inline Wrench measured_at_tip(const motion::ExternalWrench& measured, const tool
   return {R * measured.wrench.force, R * measured.wrench.moment};
 }
 
-/// The wrench at a tool's tip reduced to its limits, world axes, if it exceeds them: the force is scaled to its limit,
-/// and the moment by the same factor and further to its own limit. None if the wrench is within the limits.
-inline std::optional<Wrench> limited_wrench(const tools::LimitSettings& limit, const tools::ToolState& tool) {
+/// The wrench at a tool's tip reduced to its limits, world axes.
+struct LimitedWrench {
+  double share = 1.0;  ///< of the wrench that is within the limits; 1 if it exceeds none
+  Wrench W;
+};
+
+/// Scales the force to its limit, and the moment by the same factor and further to its own limit.
+inline LimitedWrench limited_wrench(const tools::LimitSettings& limit, const tools::ToolState& tool) {
   const auto& [force, moment] = tool.tip_wrench_W;
   const double of_force = std::min(limit.force / force.norm(), 1.0);
   const double of_moment = std::min(limit.moment / moment.norm(), of_force);
-  if (!(of_moment < 1.0)) return std::nullopt;
-  return Wrench{of_force * force, of_moment * moment};
+  return {of_moment, {of_force * force, of_moment * moment}};
 }
 
 }  // namespace spring_workbench::instruments
