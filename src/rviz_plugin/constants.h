@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace spring_workbench::rviz_plugin {
 
 // Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
@@ -18,5 +20,11 @@ constexpr int slider_positions = 1000;
 /// when the master hangs; if much shorter, it exits while it still frees resources. Test:
 /// rviz_recovery_test.py::test_rviz_ends_while_the_master_hangs at 600.
 constexpr double exit_timeout = 5.0;
+/// Time for building shapes in each frame [s]. If longer, rviz stalls while a scene is built; if shorter, the scene is
+/// complete later. Test: SceneObjectsTest.AFrameBuildsForAShortTime at 60.
+constexpr double build_time = 0.005;
+/// Number of corners of triangles in one piece of a mesh. If larger, a frame takes longer; if smaller, large meshes
+/// have more pieces to draw. Test: SceneObjectsTest.AreBuiltInParts at 3000000.
+constexpr std::size_t piece_corners = 30000;
 
 }  // namespace spring_workbench::rviz_plugin

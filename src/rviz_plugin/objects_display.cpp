@@ -45,6 +45,7 @@ void ObjectsDisplay::clear() {
   scene_.reset();
   newest_.reset();
   frame_.clear();
+  builds_.reset();
   if (objects_) objects_->clear();
 }
 
@@ -70,6 +71,7 @@ void ObjectsDisplay::reset() {
 void ObjectsDisplay::update(float wall_dt, float) {
   silence_ += static_cast<double>(wall_dt);
   if (scene_) describe();
+  if (builds_) build();
   if (newest_) place();
   if (silence_ > longest_silence && !frame_.empty()) {
     frame_.clear();
@@ -82,13 +84,23 @@ void ObjectsDisplay::describe() {
   const SceneDescriptionConstPtr scene = std::move(scene_);
   scene_.reset();
   try {
-    objects_->describe(*scene);
-    setStatusStd(StatusProperty::Ok, "Scene", std::to_string(objects_->bodies()) + " bodies of " + scene->name);
+    objects_->describe(scene);
+    builds_ = scene->name;
+    setStatus(StatusProperty::Warn, "Scene", "Building its shapes");
   } catch (const validation::InputError& error) {
     setStatusStd(StatusProperty::Error, "Scene", error.what());
+  }
+}
+
+void ObjectsDisplay::build() {
+  try {
+    context_->queueRender();
+    if (!objects_->build(build_time)) return;
+    setStatusStd(StatusProperty::Ok, "Scene", std::to_string(objects_->bodies()) + " bodies of " + *builds_);
   } catch (const Ogre::Exception& error) {
     setStatusStd(StatusProperty::Error, "Scene", error.getDescription());
   }
+  builds_.reset();
 }
 
 void ObjectsDisplay::place() {

@@ -4,6 +4,7 @@
 #include <rviz/display.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "scene_objects.h"
@@ -19,8 +20,8 @@ class RosTopicProperty;
 namespace spring_workbench::rviz_plugin {
 
 /// Draws the bodies of the scene. Builds them from the latched `SceneDescription`, once for each change of the scene,
-/// and moves them according to the newest `ObjectStates` at the start of each frame. Hidden if no message has arrived
-/// for two seconds.
+/// a few in each frame, and moves them according to the newest `ObjectStates` at the start of each frame. Hidden if no
+/// message has arrived for two seconds.
 class ObjectsDisplay : public rviz::Display {
   Q_OBJECT
  public:
@@ -38,14 +39,16 @@ class ObjectsDisplay : public rviz::Display {
  private:
   Q_SLOT void subscribe();
   void describe();
+  void build();
   void place();
   void clear();
 
   rviz::RosTopicProperty *topic_, *scene_topic_;
-  SceneDescriptionConstPtr scene_;  ///< not built yet
-  ObjectStatesConstPtr newest_;     ///< not drawn yet
-  std::string frame_;               ///< frame of the poses; empty: nothing is shown
-  double silence_ = 0.0;            ///< time since the newest valid message [s]
+  SceneDescriptionConstPtr scene_;     ///< not built yet
+  ObjectStatesConstPtr newest_;        ///< not drawn yet
+  std::optional<std::string> builds_;  ///< name of the scene whose shapes are being built
+  std::string frame_;                  ///< frame of the poses; empty: nothing is shown
+  double silence_ = 0.0;               ///< time since the newest valid message [s]
   std::unique_ptr<SceneObjects> objects_;
   ros_common::Subscriptions subscriptions_;
 };

@@ -6,8 +6,6 @@
 #include <OgreSceneManager.h>
 #include <OgreTechnique.h>
 
-#include "spring_workbench/geometry/corner_normals.h"
-
 namespace spring_workbench::rviz_plugin {
 
 std::string unique_name(const std::string& kind) {
@@ -36,13 +34,12 @@ void remove_material(const Ogre::MaterialPtr& material) {
   if (material) Ogre::MaterialManager::getSingleton().remove(material->getHandle());
 }
 
-Ogre::MeshPtr make_mesh(const MeshDescription& mesh, Ogre::SceneManager* manager) {
-  const std::vector<Eigen::Vector3f> normals = geometry::corner_normals(mesh.vertices, mesh.triangles);
-  if (normals.empty()) return Ogre::MeshPtr();
+Ogre::MeshPtr make_mesh(const MeshDescription& mesh, const std::vector<Eigen::Vector3f>& normals, std::size_t first,
+                        std::size_t last, Ogre::SceneManager* manager) {
   Ogre::ManualObject* object = manager->createManualObject();
-  object->estimateVertexCount(normals.size());
+  object->estimateVertexCount(last - first);
   object->begin("BaseWhiteNoLighting", Ogre::RenderOperation::OT_TRIANGLE_LIST);
-  for (std::size_t corner = 0; corner < normals.size(); ++corner) {
+  for (std::size_t corner = first; corner < last; ++corner) {
     const float* p = &mesh.vertices[3 * std::size_t{mesh.triangles[corner]}];
     object->position(p[0], p[1], p[2]);
     object->normal(normals[corner].x(), normals[corner].y(), normals[corner].z());

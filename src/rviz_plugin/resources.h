@@ -4,7 +4,10 @@
 #include <OgreMaterial.h>
 #include <OgreMesh.h>
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "spring_workbench/MeshDescription.h"
 
@@ -24,8 +27,9 @@ Ogre::MaterialPtr make_material();
 void set_color(const Ogre::ColourValue& color, const Ogre::MaterialPtr& material);
 void remove_material(const Ogre::MaterialPtr& material);
 
-/// A mesh of the triangles, smooth across edges below the crease angle. Null if there are no triangles.
-Ogre::MeshPtr make_mesh(const MeshDescription& mesh, Ogre::SceneManager* manager);
+/// A mesh of the triangles with the corners from `first` to before `last`, with the normals of all corners.
+Ogre::MeshPtr make_mesh(const MeshDescription& mesh, const std::vector<Eigen::Vector3f>& normals, std::size_t first,
+                        std::size_t last, Ogre::SceneManager* manager);
 void remove_mesh(const Ogre::MeshPtr& mesh);
 
 }  // namespace spring_workbench::rviz_plugin

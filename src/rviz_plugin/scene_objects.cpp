@@ -9,7 +9,7 @@
 #include <rviz/mesh_loader.h>
 #include <rviz/ogre_helpers/shape.h>
 
-#include <cmath>
+#include <chrono>
 
 #include "message_checks.h"
 #include "resources.h"
@@ -47,48 +47,85 @@ SceneObjects::SceneObjects(Ogre::SceneManager* manager, Ogre::SceneNode* parent)
 
 SceneObjects::~SceneObjects() { clear(); }
 
-void SceneObjects::describe(const SceneDescription& scene) {
-  check(scene);
+void SceneObjects::describe(const SceneDescriptionConstPtr& scene) {
+  check(*scene);
   clear();
-  for (const MeshDescription& mesh : scene.meshes) meshes_.push_back(make_mesh(mesh, manager_));
-  for (const BodyDescription& description : scene.bodies) {
+  scene_ = scene;
+  meshes_ = std::make_unique<MeshPieces>(manager_, scene);
+  std::deque<Work> of_triangles;
+  for (const BodyDescription& description : scene->bodies) {
     Body& body = bodies_[description.name];
     body.movable = description.movable != 0;
     body.named = !body.movable;
     body.node = parent_->createChildSceneNode();
     set_pose(description.pose, body.node);
-    for (const ShapeDescription& shape : description.visual) add_part(scene, shape, body);
-    body.node->setVisible(body.named);
+    for (const ShapeDescription& shape : description.visual) {
+      const bool is_mesh = shape.type == ShapeDescription::MESH, of_file = is_mesh && shape.file_colors != 0;
+      (is_mesh && !of_file ? of_triangles : waiting_).push_back({&body, &shape, of_file});
+    }
   }
+  waiting_.insert(waiting_.end(), of_triangles.begin(), of_triangles.end());
 }
 
-Ogre::Entity* SceneObjects::make_entity(const ShapeDescription& shape) {
-  if (shape.type == ShapeDescription::MESH) return manager_->createEntity(meshes_[shape.mesh]);
+bool SceneObjects::build(double time) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(time);
+  while (!waiting_.empty() && build_next()) {
+    if (std::chrono::steady_clock::now() >= end) break;
+  }
+  return waiting_.empty();
+}
+
+/// Builds the next shape or a piece of it; returns false if it has to wait.
+bool SceneObjects::build_next() {
+  Work& work = waiting_.front();
+  const std::size_t mesh = work.shape->mesh;
+  Ogre::MeshPtr file;
+  if (work.of_file) {
+    file = rviz::loadMeshFromResource(scene_->meshes[mesh].uri);
+    work.of_file = bool(file);  // otherwise rviz cannot read it, and its triangles are drawn
+  }
+  if (work.shape->type == ShapeDescription::MESH && !file) {
+    const MeshPieces::Progress progress = meshes_->make_next(mesh);
+    if (progress != MeshPieces::Progress::complete) return progress == MeshPieces::Progress::grows;
+  }
+  add_part(work, file);
+  waiting_.pop_front();
+  return true;
+}
+
+std::vector<Ogre::Entity*> SceneObjects::make_entities(const ShapeDescription& shape) {
+  std::vector<Ogre::Entity*> entities;
+  if (shape.type == ShapeDescription::MESH) {
+    for (const Ogre::MeshPtr& piece : meshes_->of(shape.mesh)) entities.push_back(manager_->createEntity(piece));
+    return entities;
+  }
   const rviz::Shape::Type type = shape.type == ShapeDescription::BOX      ? rviz::Shape::Cube
                                  : shape.type == ShapeDescription::SPHERE ? rviz::Shape::Sphere
                                                                           : rviz::Shape::Cylinder;
-  return rviz::Shape::createEntity(unique_name("shape"), type, manager_);
+  return {rviz::Shape::createEntity(unique_name("shape"), type, manager_)};
 }
 
-void SceneObjects::add_part(const SceneDescription& scene, const ShapeDescription& shape, Body& body) {
-  const bool is_mesh = shape.type == ShapeDescription::MESH;
-  if (is_mesh && !meshes_[shape.mesh]) return;  // without triangles
-  const Ogre::MeshPtr file =                    // also null if rviz cannot read it
-      is_mesh && shape.file_colors != 0 ? rviz::loadMeshFromResource(scene.meshes[shape.mesh].uri) : Ogre::MeshPtr();
-  Part part{body.node->createChildSceneNode(), file ? manager_->createEntity(file) : make_entity(shape), {}};
+/// `file`: null if the shape has none.
+void SceneObjects::add_part(const Work& work, const Ogre::MeshPtr& file) {
+  const ShapeDescription& shape = *work.shape;
+  Part part{work.body->node->createChildSceneNode(), {}, {}};
+  part.entities = file ? std::vector<Ogre::Entity*>{manager_->createEntity(file)} : make_entities(shape);
   set_pose(shape.pose, part.node);
   set_size(shape, bool(file), part.node);
   const auto& c = shape.color;
   if (!file) part.looks.push_back({make_material(), Ogre::ColourValue(c.r, c.g, c.b, c.a)});
-  for (unsigned i = 0; file && i < part.entity->getNumSubEntities(); ++i) {
-    const Ogre::MaterialPtr material = part.entity->getSubEntity(i)->getMaterial()->clone(unique_name("material"));
-    part.looks.push_back({material, material->getTechnique(0)->getPass(0)->getDiffuse()});
+  for (Ogre::Entity* entity : part.entities) {
+    for (unsigned i = 0; i < entity->getNumSubEntities(); ++i) {
+      Ogre::SubEntity* sub = entity->getSubEntity(i);
+      const Ogre::MaterialPtr own = file ? sub->getMaterial()->clone(unique_name("material")) : Ogre::MaterialPtr();
+      if (file) part.looks.push_back({own, own->getTechnique(0)->getPass(0)->getDiffuse()});
+      sub->setMaterial(part.looks[file ? i : 0].material);
+    }
+    part.node->attachObject(entity);
   }
-  for (unsigned i = 0; i < part.entity->getNumSubEntities(); ++i)
-    part.entity->getSubEntity(i)->setMaterial(part.looks[file ? i : 0].material);
-  for (const Look& look : part.looks) set_color(look.color, look.material);
-  part.node->attachObject(part.entity);
-  body.parts.push_back(part);
+  work.body->parts.push_back(part);
+  color(*work.body, work.body->highlighted, work.body->pierced);
+  work.body->node->setVisible(work.body->named);
   ++built_;
 }
 
@@ -124,17 +161,17 @@ void SceneObjects::color(Body& body, bool highlighted, bool pierced) {
 }
 
 void SceneObjects::clear() {
+  waiting_.clear();
   for (auto& [name, body] : bodies_) {
     for (const Part& part : body.parts) {
-      manager_->destroyEntity(part.entity);
+      for (Ogre::Entity* entity : part.entities) manager_->destroyEntity(entity);
       manager_->destroySceneNode(part.node);
       for (const Look& look : part.looks) remove_material(look.material);
     }
     if (body.node != nullptr) manager_->destroySceneNode(body.node);
   }
   bodies_.clear();
-  for (const Ogre::MeshPtr& mesh : meshes_) remove_mesh(mesh);
-  meshes_.clear();
+  meshes_.reset();
 }
 
 const Ogre::SceneNode* SceneObjects::node(const std::string& name) const {

@@ -5,10 +5,13 @@
 #include <OgreMesh.h>
 
 #include <cstddef>
+#include <deque>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "mesh_pieces.h"
 #include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/SceneDescription.h"
 #endif
@@ -21,8 +24,8 @@ class SceneNode;
 
 namespace spring_workbench::rviz_plugin {
 
-/// The bodies of a scene in Ogre: built once from their description, then only moved and coloured. Frees all its
-/// resources.
+/// The bodies of a scene in Ogre: built once from their description, in parts, then only moved and coloured. Frees all
+/// its resources.
 class SceneObjects {
  public:
   /// Adds the bodies below `parent`, which must outlive it.
@@ -31,9 +34,12 @@ class SceneObjects {
   SceneObjects(const SceneObjects&) = delete;
   SceneObjects& operator=(const SceneObjects&) = delete;
 
-  /// Replaces the present bodies. Fixed bodies are shown at once, movable ones from their first pose on. Throws
-  /// InputError, and changes nothing, if the scene cannot be drawn.
-  void describe(const SceneDescription& scene);
+  /// Replaces the present bodies, whose shapes `build` makes. Fixed bodies are shown at once, movable ones from their
+  /// first pose on. Throws InputError, and changes nothing, if the scene cannot be drawn.
+  void describe(const SceneDescriptionConstPtr& scene);
+  /// Builds shapes for `time` [s], but one or a piece of one at least, unless the normals of all that are left are
+  /// still being computed. Returns whether all are there. A mesh file that rviz reads takes the time that it takes.
+  bool build(double time);
   /// Moves the movable bodies. A body that the message does not contain is hidden; an unknown name is ignored. Throws
   /// InputError, and changes nothing, if a pose is invalid.
   void place(const ObjectStates& objects);
@@ -52,7 +58,7 @@ class SceneObjects {
   };
   struct Part {
     Ogre::SceneNode* node;
-    Ogre::Entity* entity;
+    std::vector<Ogre::Entity*> entities;
     std::vector<Look> looks;  ///< one, or for a mesh file one per sub-mesh
   };
   struct Body {
@@ -63,14 +69,23 @@ class SceneObjects {
     std::vector<Part> parts;
   };
 
-  Ogre::Entity* make_entity(const ShapeDescription& shape);
-  void add_part(const SceneDescription& scene, const ShapeDescription& shape, Body& body);
+  struct Work {
+    Body* body;
+    const ShapeDescription* shape;
+    bool of_file;  ///< whether to try its mesh file
+  };
+
+  bool build_next();
+  void add_part(const Work& work, const Ogre::MeshPtr& file);
+  std::vector<Ogre::Entity*> make_entities(const ShapeDescription& shape);
   static void color(Body& body, bool highlighted, bool pierced);
 
   Ogre::SceneManager* manager_;
   Ogre::SceneNode* parent_;
   std::map<std::string, Body> bodies_;
-  std::vector<Ogre::MeshPtr> meshes_;
+  SceneDescriptionConstPtr scene_;
+  std::deque<Work> waiting_;  ///< shapes that are not built yet
+  std::unique_ptr<MeshPieces> meshes_;
   std::size_t built_ = 0;
 };
 

@@ -186,7 +186,7 @@ void WorkbenchPanel::save(rviz::Config config) const {
 void WorkbenchPanel::follow(const QString& node) {
   if (node.toStdString() == node_.text()) return;
   try {
-    node_ = NodeName(node.toStdString());
+    node_ = ros_common::NodeName(node.toStdString());
     subscribe();
     Q_EMIT configChanged();
   } catch (const validation::InputError& error) {

@@ -6,9 +6,9 @@
 
 #include <memory>
 
-#include "node_name.h"
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/StepReport.h"
+#include "spring_workbench/ros/common/node_name.h"
 #include "spring_workbench/ros/common/service_caller.h"
 #include "spring_workbench/ros/common/subscriptions.h"
 #endif
@@ -61,7 +61,7 @@ class WorkbenchPanel : public rviz::Panel {
   template <typename Service>  // switches and choices wait for its effect
   void ask(const std::string& service, const typename Service::Request& request);
 
-  NodeName node_{"manipulation"};
+  ros_common::NodeName node_{"manipulation"};
   ForkStateConstPtr fork_;
   double fork_received_ = -1e9;  ///< [s]
   double free_at_ = 0.0;         ///< time from which switches and choices follow the node again [s]

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ogre.h"
+#include "spring_workbench/geometry/corner_normals.h"
 #include "spring_workbench/math/rigid_transform.h"
 #include "src/rviz_plugin/resources.h"
 
@@ -16,7 +17,9 @@ class Meshes : public Ogre3d {
  protected:
   /// Of the corners, three for each triangle.
   std::vector<Vector3d> normals_of(const MeshDescription& description) {
-    const Ogre::MeshPtr mesh = make_mesh(description, manager_);
+    const Ogre::MeshPtr mesh =
+        make_mesh(description, geometry::corner_normals(description.vertices, description.triangles), 0,
+                  description.triangles.size(), manager_);
     const Ogre::VertexData* data = mesh->getSubMesh(0)->vertexData;
     const Ogre::VertexElement* normal = data->vertexDeclaration->findElementBySemantic(Ogre::VES_NORMAL);
     const auto buffer = data->vertexBufferBinding->getBuffer(normal->getSource());

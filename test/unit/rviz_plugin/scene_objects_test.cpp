@@ -5,16 +5,19 @@
 #include <OgreTechnique.h>
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
 #include <functional>
 #include <limits>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "ogre.h"
 #include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/validation/input_error.h"
+#include "src/rviz_plugin/constants.h"
 #include "support/temporary_folder.h"
 
 namespace spring_workbench::rviz_plugin::scene_objects_test {
@@ -87,6 +90,12 @@ Ogre::ColourValue color_of(const SceneObjects& objects, const std::string& name)
   return entity_of(objects, name)->getSubEntity(0)->getMaterial()->getTechnique(0)->getPass(0)->getDiffuse();
 }
 
+/// Describes the bodies and builds all of them.
+void describe(SceneObjects& objects, const SceneDescription& scene) {
+  objects.describe(boost::make_shared<const SceneDescription>(scene));
+  while (!objects.build(0.0)) std::this_thread::yield();
+}
+
 class SceneObjectsTest : public Ogre3d {
  protected:
   std::mt19937 random_{7};
@@ -95,7 +104,7 @@ class SceneObjectsTest : public Ogre3d {
 TEST_F(SceneObjectsTest, NodesAreAtThePosesOfTheMessage) {
   SceneObjects objects(manager_, parent_);
   const SceneDescription scene = scene_of_all();
-  objects.describe(scene);
+  describe(objects, scene);
   EXPECT_EQ(objects.node("table")->getPosition(), Ogre::Vector3(0, 0, 1));
   for (int i = 0; i < 100; ++i) {
     const ObjectStates states = states_of(scene, random_);
@@ -121,7 +130,7 @@ TEST_F(SceneObjectsTest, NodesAreAtThePosesOfTheMessage) {
 
 TEST_F(SceneObjectsTest, ShapesHaveTheirSize) {
   SceneObjects objects(manager_, parent_);
-  objects.describe(scene_of_all());
+  describe(objects, scene_of_all());
   for (const std::string name : {"table", "box", "ball", "rod"}) {
     const Ogre::Vector3 size = entity_of(objects, name)->getWorldBoundingBox(true).getSize();
     EXPECT_NEAR(size.x, 0.2F, 0.01F) << name;
@@ -151,10 +160,10 @@ TEST_F(SceneObjectsTest, AMeshFileHasItsOwnColours) {
   shape.file_colors = 1;
   shape.size.x = shape.size.y = shape.size.z = 2.0;
   SceneObjects objects(manager_, parent_);
-  objects.describe(scene);  // rviz keeps what it has read
+  describe(objects, scene);  // rviz keeps what it has read
   objects.clear();
   const Counts before = counts();
-  objects.describe(scene);
+  describe(objects, scene);
   const Ogre::Entity* entity = entity_of(objects, "mesh");
   ASSERT_EQ(entity->getNumSubEntities(), 2u);
   const auto pass = [&](unsigned i) { return entity->getSubEntity(i)->getMaterial()->getTechnique(0)->getPass(0); };
@@ -177,14 +186,14 @@ TEST_F(SceneObjectsTest, AMeshFileHasItsOwnColours) {
   objects.clear();
   EXPECT_EQ(counts(), before);
   scene.meshes[0].uri = "file:///nowhere/thing.obj";  // its triangles are there
-  objects.describe(scene);
+  describe(objects, scene);
   EXPECT_NEAR(color_of(objects, "mesh").r, 0.8F, 1e-6F);
 }
 
 TEST_F(SceneObjectsTest, FramesBuildNothing) {
   SceneObjects objects(manager_, parent_);
   const SceneDescription scene = scene_of_all();
-  objects.describe(scene);
+  describe(objects, scene);
   EXPECT_EQ(objects.built(), 6u);
   const Counts before = counts();
   for (int i = 0; i < 1000; ++i) {
@@ -196,14 +205,98 @@ TEST_F(SceneObjectsTest, FramesBuildNothing) {
   EXPECT_EQ(counts(), before);
 }
 
+/// A grid of triangles on the z = 0 plane, side × side × 2 of them.
+MeshDescription grid(std::uint32_t side) {
+  MeshDescription mesh;
+  for (std::uint32_t i = 0; i <= side; ++i) {
+    for (std::uint32_t j = 0; j <= side; ++j) {
+      for (const std::uint32_t x : {i, j, 0U})
+        mesh.vertices.push_back(static_cast<float>(x) / static_cast<float>(side));
+    }
+  }
+  for (std::uint32_t i = 0; i < side; ++i) {
+    for (std::uint32_t j = 0; j < side; ++j) {
+      const std::uint32_t a = i * (side + 1) + j, b = a + side + 1;
+      for (const std::uint32_t corner : {a, b, a + 1, a + 1, b, b + 1}) mesh.triangles.push_back(corner);
+    }
+  }
+  return mesh;
+}
+
+/// A mesh of 180,000 triangles and, behind it in the list, other shapes: these are drawn first, and each call without
+/// time makes one shape or one piece. Freed at any stage.
+TEST_F(SceneObjectsTest, AreBuiltInParts) {
+  const Counts before = counts();
+  SceneDescription scene = scene_of_all();
+  scene.meshes[0] = grid(300);
+  std::swap(scene.bodies.front(), scene.bodies.back());
+  const std::size_t pieces = (scene.meshes[0].triangles.size() + piece_corners - 1) / piece_corners;
+  ASSERT_GT(pieces, 10u);
+  for (const std::size_t stop_after : {std::size_t{0}, std::size_t{3}, std::size_t{9}, pieces + 6}) {
+    SceneObjects objects(manager_, parent_);
+    objects.describe(boost::make_shared<const SceneDescription>(scene));
+    std::size_t calls = 0, made = 0;
+    Counts last = counts();
+    for (bool complete = false; !complete && made < stop_after; ++calls) {
+      complete = objects.build(0.0);
+      const Counts now = counts();
+      EXPECT_LE(now[1], last[1] + 1);  // a mesh
+      made += now == last ? 0 : 1;
+      last = now;
+      if (made == 5) {
+        EXPECT_EQ(objects.built(), 5u);  // all but the mesh
+      }
+    }
+    EXPECT_GE(calls, made);
+    if (stop_after > pieces) {
+      EXPECT_EQ(made, pieces + 6);
+      EXPECT_EQ(objects.built(), 6u);
+    }
+  }
+  EXPECT_EQ(counts()[0], before[0]);
+  EXPECT_LE(counts()[1], before[1] + 3);  // rviz' own cube, sphere and cylinder stay loaded
+  EXPECT_EQ(counts()[2], before[2]);
+  EXPECT_EQ(counts()[3], before[3]);
+}
+
+/// Half a million triangles take many frames.
+TEST_F(SceneObjectsTest, AFrameBuildsForAShortTime) {
+  SceneDescription scene = scene_of_all();
+  scene.meshes[0] = grid(500);
+  SceneObjects objects(manager_, parent_);
+  objects.describe(boost::make_shared<const SceneDescription>(scene));
+  const std::size_t meshes = counts()[1];
+  while (counts()[1] < meshes + 4) objects.build(0.0);  // the other shapes may need three, and the normals are there
+  int frames = 1;
+  while (!objects.build(build_time)) ++frames;
+  EXPECT_GT(frames, 2);
+}
+
+/// What is added later looks like the rest of its body.
+TEST_F(SceneObjectsTest, ALatePartIsLitAndHiddenLikeItsBody) {
+  SceneObjects objects(manager_, parent_);
+  const SceneDescription scene = scene_of_all();
+  objects.describe(boost::make_shared<const SceneDescription>(scene));
+  ObjectStates states = states_of(scene, random_);
+  states.objects[0].highlighted = 1;
+  states.objects.pop_back();  // the mesh
+  objects.place(states);
+  while (!objects.build(0.0)) std::this_thread::yield();
+  EXPECT_NE(color_of(objects, "box").b, 0.0F);
+  EXPECT_TRUE(entity_of(objects, "box")->getVisible());
+  EXPECT_FALSE(entity_of(objects, "mesh")->getVisible());
+  objects.place(states_of(scene, random_));
+  EXPECT_TRUE(entity_of(objects, "mesh")->getVisible());
+}
+
 TEST_F(SceneObjectsTest, EverythingIsFreed) {
   const Counts before = counts();
   {
     SceneObjects objects(manager_, parent_);
-    objects.describe(scene_of_all());
+    describe(objects, scene_of_all());
     const Counts with = counts();
     for (std::size_t i = 0; i < with.size(); ++i) EXPECT_GT(with[i], before[i]);
-    for (int i = 0; i < 20; ++i) objects.describe(scene_of_all());
+    for (int i = 0; i < 20; ++i) describe(objects, scene_of_all());
     EXPECT_EQ(counts()[0], with[0]);
     EXPECT_EQ(counts()[2], with[2]);
     EXPECT_EQ(counts()[3], with[3]);
@@ -218,11 +311,11 @@ TEST_F(SceneObjectsTest, EverythingIsFreed) {
 TEST_F(SceneObjectsTest, FollowAnotherDescription) {
   SceneObjects objects(manager_, parent_);
   SceneDescription scene = scene_of_all();
-  objects.describe(scene);
+  describe(objects, scene);
   scene.bodies.erase(scene.bodies.begin() + 1);                         // removed
   scene.bodies.push_back(body_of("new", true, ShapeDescription::BOX));  // added
   scene.bodies[0].visual[0].size.x = 0.7;                               // changed
-  objects.describe(scene);
+  describe(objects, scene);
   EXPECT_EQ(objects.bodies(), 5u);
   EXPECT_EQ(objects.node("box"), nullptr);
   ASSERT_NE(objects.node("new"), nullptr);
@@ -232,7 +325,7 @@ TEST_F(SceneObjectsTest, FollowAnotherDescription) {
 TEST_F(SceneObjectsTest, MovableOnesAreSeenWhileTheMessageNamesThem) {
   SceneObjects objects(manager_, parent_);
   const SceneDescription scene = scene_of_all();
-  objects.describe(scene);
+  describe(objects, scene);
   EXPECT_TRUE(entity_of(objects, "table")->getVisible());
   EXPECT_FALSE(entity_of(objects, "box")->getVisible());
   ObjectStates states = states_of(scene, random_);
@@ -250,7 +343,7 @@ TEST_F(SceneObjectsTest, MovableOnesAreSeenWhileTheMessageNamesThem) {
 TEST_F(SceneObjectsTest, WhatWouldBeGraspedLightsUp) {
   SceneObjects objects(manager_, parent_);
   const SceneDescription scene = scene_of_all();
-  objects.describe(scene);
+  describe(objects, scene);
   ObjectStates states = states_of(scene, random_);
   const Vector3d lit = fork_mesh::highlighted(Vector3d(0.8, 0.0, 0.0));
   for (const bool on : {false, true, true, false}) {
@@ -270,7 +363,7 @@ TEST_F(SceneObjectsTest, WhatWouldBeGraspedLightsUp) {
 TEST_F(SceneObjectsTest, WhatCannotBeDrawnIsRefusedAndChangesNothing) {
   SceneObjects objects(manager_, parent_);
   const SceneDescription scene = scene_of_all();
-  objects.describe(scene);
+  describe(objects, scene);
   const ObjectStates states = states_of(scene, random_);
   objects.place(states);
   const Counts before = counts();
@@ -292,7 +385,7 @@ TEST_F(SceneObjectsTest, WhatCannotBeDrawnIsRefusedAndChangesNothing) {
   for (std::size_t i = 0; i < faults.size(); ++i) {
     SceneDescription bad = scene;
     faults[i](bad);
-    EXPECT_THROW(objects.describe(bad), validation::InputError) << i;
+    EXPECT_THROW(describe(objects, bad), validation::InputError) << i;
     EXPECT_EQ(counts(), before) << i;
   }
   ObjectStates bad = states;
@@ -302,7 +395,7 @@ TEST_F(SceneObjectsTest, WhatCannotBeDrawnIsRefusedAndChangesNothing) {
   EXPECT_EQ(objects.node("box")->getPosition(), position);
   SceneDescription empty_mesh = scene;
   empty_mesh.meshes[0].triangles.clear();
-  objects.describe(empty_mesh);  // nothing of it is seen
+  describe(objects, empty_mesh);  // nothing of it is seen
   objects.place(states);
 }
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace spring_workbench::rviz_plugin {
+namespace spring_workbench::ros_common {
 
-/// The name of a node as the user writes it: absolute, or relative to the namespace of rviz.
+/// The name of a node as the user writes it: absolute, or relative to the namespace of this process.
 class NodeName {
  public:
   /// Throws InputError unless a node can have that name.
@@ -19,4 +19,4 @@ class NodeName {
   std::string name_;
 };
 
-}  // namespace spring_workbench::rviz_plugin
+}  // namespace spring_workbench::ros_common

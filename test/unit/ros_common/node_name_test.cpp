@@ -1,4 +1,4 @@
-#include "src/rviz_plugin/node_name.h"
+#include "spring_workbench/ros/common/node_name.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::rviz_plugin::node_name_test {
+namespace spring_workbench::ros_common::node_name_test {
 namespace {
 
 TEST(NodeName, NamesOfANodeAndOfItsNamespace) {
@@ -24,4 +24,4 @@ TEST(NodeName, WhatNoNodeCanBeCalledIsRefused) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::rviz_plugin::node_name_test
+}  // namespace spring_workbench::ros_common::node_name_test
