@@ -26,7 +26,7 @@ void ForkDisplay::setTopic(const QString& topic, const QString&) { topic_->setSt
 
 void ForkDisplay::subscribe() {
   if (!initialized()) return;
-  for (auto& [topic, fork] : forks_) fork.subscription.replace();
+  for (auto& [topic, fork] : forks_) fork.subscription.end();
   forks_.clear();
   last_answer_.reset();
   if (!isEnabled() || topic_->getTopicStd().empty()) return;

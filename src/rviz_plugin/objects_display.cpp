@@ -51,7 +51,7 @@ void ObjectsDisplay::clear() {
 
 void ObjectsDisplay::subscribe() {
   if (!initialized()) return;
-  subscriptions_.replace();
+  subscriptions_.end();
   clear();
   if (!isEnabled() || topic_->getTopicStd().empty() || scene_topic_->getTopicStd().empty()) return;
   setStatus(StatusProperty::Warn, "Topic", "No message yet");

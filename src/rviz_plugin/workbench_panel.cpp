@@ -197,7 +197,7 @@ void WorkbenchPanel::follow(const QString& node) {
 
 void WorkbenchPanel::subscribe() {
   ros::NodeHandle handle;
-  subscriptions_.replace();
+  subscriptions_.end();
   subscriptions_.add<ForkState>(handle, node_.of_node("fork"), 1, [this](const auto& message) { on_fork(message); });
   subscriptions_.add<StepReport>(handle, node_.of_node("steps"), 200,
                                  [this](const auto& message) { figures_->add(panel_time(), message); });

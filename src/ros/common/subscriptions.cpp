@@ -13,12 +13,18 @@ void leave_until_exit(std::future<void> work) {
   unfinished.push_back(std::move(work));
 }
 
+void run_in_order(std::function<void()> work) {
+  static std::future<void> last;  // waited for by its destructor
+  last = std::async(std::launch::async, [before = std::move(last), work = std::move(work)] {
+    if (before.valid()) before.wait();
+    work();
+  });
+}
+
 void Subscriptions::end() {
   callbacks_ = boost::make_shared<int>();
-  if (subscribers_.empty()) return;
-  leave_until_exit(std::async(std::launch::async, [ended = std::exchange(subscribers_, {})]() mutable {
-    for (ros::Subscriber& subscriber : ended) subscriber.shutdown();
-  }));
+  run_in_order(
+      [ended = std::exchange(subscribers_, std::make_shared<std::vector<ros::Subscriber>>())] { ended->clear(); });
 }
 
 }  // namespace spring_workbench::ros_common
