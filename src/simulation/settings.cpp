@@ -95,14 +95,12 @@ std::vector<Field> scene_fields(S& s) {
       flag("massless", "no object has mass: each follows the tip, and stays where it is released", s.massless),
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
       integer("styluses", 1, 255, "number of styluses, each with its tool; silent ones do nothing", s.styluses),
-      number(
-          "hand.scale", "–", between(1e-3, 1e3),
-          "length in the world per length of the hand's motion, from the origin of the world; rotations are not scaled",
-          s.hand_scale),
+      number("hand.scale", "–", between(1e-3, 1e3),
+             "length in the world per length of the hand's motion from the origin; rotations are not scaled",
+             s.hand_scale),
       number("hand.time_scale", "–", between(1e-3, 1e3),
              "time in the world per time of the hand: at 0.5 the world is in slow motion", s.hand_time_scale),
-      integer("clutch.button", 2, 63, "the stylus button that, while it is down, lets the hand move without its tool",
-              s.clutch_button),
+      integer("clutch.button", 2, 63, "the stylus button that lets the hand move without its tool", s.clutch_button),
   };
 }
 
@@ -110,11 +108,9 @@ std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
   return {
       choice("integrator", "the method that integrates the motion; paper: only of one fork, otherwise exponential",
              d.integrator),
-      number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
-             d.step),
+      number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample", d.step),
       number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
-             "0: fixed steps; otherwise steps are short enough to keep the error of the run near this value",
-             d.tolerance),
+             "0: fixed steps; otherwise steps short enough to keep the error of the run near this value", d.tolerance),
       flag("error_bound", "propagate the error of the run and report a bound of it", d.error_bound),
       choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m (not with tool spring)", d.inertia),
   };
@@ -127,8 +123,7 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
       choice("shape", "the fork's shape model: how its curvature varies along it", f.shape),
       number("fork.length", "m", between(1e-4, 1e3), "rest length", f.length),
       number("fork.stiffness.stretch", "N/m", stiffness, "axial force per unit extension", k.stretch),
-      number("fork.stiffness.bend", "N/m", stiffness, "transverse force at the tip per unit deflection of the tip",
-             k.bend),
+      number("fork.stiffness.bend", "N/m", stiffness, "transverse tip force per unit deflection of the tip", k.bend),
       number("fork.stiffness.torsion", "N·m/rad", stiffness, "axial moment per unit twist angle", k.torsion),
       number("fork.stiffness.slope", "N·m/rad", between(1e-12, 1e16),
              "for the shape bushing only: transverse moment per unit slope of the tip", f.slope_stiffness,
@@ -136,8 +131,7 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
       number("fork.damping.stretch", "–", ratio, "damping ratio of stretching; 1 is critical", zeta.stretch),
       number("fork.damping.bend", "–", ratio, "damping ratio of bending; 1 is critical", zeta.bend),
       number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical", zeta.torsion),
-      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "axial force per unit speed of extension",
-             c.stretch),
+      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "axial force per speed of extension", c.stretch),
       number("fork.damping_coefficient.bend", "N·s/m", coefficient, "transverse force per unit speed of deflection",
              c.bend),
       number("fork.damping_coefficient.torsion", "N·m·s/rad", coefficient, "axial moment per unit twist rate",

@@ -169,7 +169,7 @@ struct Simulation::Impl {
   double next_sample(double after) const;
   double next_edge() const;
   double end_of_step(double t_end) const;
-  Hand* beyond_limit(const Slipping& slipping, Wrench& limited_W);
+  Slipping beyond_limits(const Slipping& slipping);
   std::vector<objects::Carried> carried;  ///< bodies of one step; a member to reuse its memory, like `together`
   std::vector<Hand*> together;            ///< hands on one object
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
@@ -253,7 +253,7 @@ double Simulation::Impl::next_edge() const {
 
 /// End time of the next step: at the next sample, button edge or change of a wrench, or earlier.
 double Simulation::Impl::end_of_step(double t_end) const {
-  const double next_sample = this->next_sample(now), next_edge = this->next_edge();
+  const double next_sample = this->next_sample(now + same_time), next_edge = this->next_edge();
   // Equal steps up to the sample or the end, instead of a small last step.
   const double stretch_end = next_sample < t_end + same_time ? next_sample : t_end;
   const double count = std::ceil((stretch_end - now) / settings.dynamics.step - 1e-9);
@@ -320,17 +320,24 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   for (Hand& hand : hands) hand.end_step(report);
 }
 
-/// The hand that now exceeds its limit most, with its limited wrench; null if there is none. Once it has given way,
-/// others may be within theirs.
-Hand* Simulation::Impl::beyond_limit(const Slipping& slipping, Wrench& limited_W) {
-  Hand* worst = nullptr;
-  double least = 1.0;
+/// The hands that exceed their limits now and have to release or slip. Of hands that pull an object against each other
+/// only the one that is beyond its limit most: once that has given way, the other may be within its own.
+Simulation::Impl::Slipping Simulation::Impl::beyond_limits(const Slipping& slipping) {
+  std::multimap<double, Slipping::value_type> beyond;  // by the share of the wrench that is within the limits
   for (Hand& hand : hands) {
     if (slipping.count(&hand) > 0 || !hand.springs()) continue;
     const instruments::LimitedWrench limited = instruments::limited_wrench(settings.limit, hand.state(now));
-    if (limited.share < least) std::tie(worst, least, limited_W) = std::tuple(&hand, limited.share, limited.W);
+    if (limited.share < 1.0) beyond.emplace(limited.share, Slipping::value_type(&hand, limited.W));
   }
-  return worst;
+  Slipping first;
+  for (const auto& entry : beyond) {
+    const auto& [hand, pull_W] = entry.second;
+    const auto opposes = [object = hand->carried(), force = pull_W.force](const auto& other) {
+      return other.first->carried() == object && other.second.force.dot(force) < 0.0;
+    };
+    if (std::none_of(first.begin(), first.end(), opposes)) first.insert(entry.second);
+  }
+  return first;
 }
 
 /// Takes a step. If a tool would exceed its limit, the step is repeated without it, or with its limit wrench
@@ -340,17 +347,18 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   const bool limited = std::isfinite(settings.limit.force) || std::isfinite(settings.limit.moment);
   const AdvanceReport so_far = report;
   Slipping slipping;
-  Wrench limited_W;
   math::StateArchive start;
   if (limited) exchange(start);
   carry(h, slipping, report);
-  while (Hand* hand = limited ? beyond_limit(slipping, limited_W) : nullptr) {
+  for (Slipping more; limited && !(more = beyond_limits(slipping)).empty();) {
     set(start.taken());
     report = so_far;
     if (settings.limit.action == tools::LimitAction::slip) {
-      slipping[hand] = limited_W;
+      slipping.insert(more.begin(), more.end());
     } else {
-      with_handover([&] { hand->let_go(settings.grasp.release == tools::Release::thrown, now); });
+      with_handover([&] {
+        for (const auto& one : more) one.first->let_go(settings.grasp.release == tools::Release::thrown, now);
+      });
     }
     start = math::StateArchive();
     exchange(start);

@@ -146,8 +146,7 @@ struct PulledByOneOfTwo {
 TEST_P(Slip, OneOfTwoToolsSlipsWhileTheOtherHolds) {
   for (const tools::Tool other : {tools::Tool::spring_fork, tools::Tool::direct}) {
     double jump = 1e9;
-    for (const double step : {0.02, 0.005, 0.00125}) {
-      SCOPED_TRACE(static_cast<int>(other));
+    for (const double step : {0.005, 0.00125}) {
       const PulledByOneOfTwo pulled(GetParam(), other, step);
       EXPECT_GT(pulled.at_limit, 1.0) << step;
       EXPECT_LT(pulled.gap, 1e-6) << step;
