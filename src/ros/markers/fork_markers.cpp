@@ -47,7 +47,8 @@ std::string printed(const char* format, double a, double b, double c = 0.0) {
 
 std::string printed(const tools::Reading& average, double scale, const char* unit) {
   if (!std::isfinite(average.uncertainty)) return "";
-  return printed("%.3f +- %.1g ", average.mean / scale, average.uncertainty / scale) + unit;
+  const double mean = std::round(1e3 * average.mean / scale) / 1e3 + 0.0;  // not -0
+  return printed("\nmean %.3f +- %.3f ", mean, average.uncertainty / scale) + unit;
 }
 
 /// The further lines of the text: the readings of the tool. rviz can only draw ASCII.
@@ -60,7 +61,7 @@ std::string reading(const tools::ToolState& tool, double force_scale) {
   const std::string weight = printed(tool.weight_average, 1.0, "vkg");
   const std::string torque = printed(tool.torque_average, force_scale, "N m");
   constexpr double degree = M_PI / 180.0;
-  return (weight.empty() ? "" : "\nmean " + weight + "   " + torque) +
+  return weight + torque +
          printed("\n%.1f N along   %.1f N across   %.0f deg", tool.stretching_force / force_scale,
                  tool.bending_force / force_scale, tool.force_angle / degree);
 }
@@ -73,7 +74,7 @@ void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const
   const std::string load = printed("%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                                    force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
   const Vector3d place = tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * size) + 0.4 * size * Vector3d::UnitZ();
-  markers.add_text("readout" + number, 0, place, 0.13 * size, load + reading(tool, scene.force_scale), readout_color);
+  markers.add_text("readout" + number, 0, place, 0.09 * size, load + reading(tool, scene.force_scale), readout_color);
 }
 
 }  // namespace
