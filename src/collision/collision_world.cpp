@@ -10,12 +10,12 @@
 
 #include "bench_contacts.h"
 #include "constants.h"
-#include "manifold_reduction.h"
 #include "narrow_phase.h"
 #include "spring_workbench/geometry/box_gap.h"
 #include "spring_workbench/geometry/conservative_advancement.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
+#include "thin_out.h"
 
 namespace spring_workbench::collision {
 namespace {
@@ -67,7 +67,7 @@ struct Part {
 };
 
 /// A body's pieces, how far they reach from its origin, and where that is.
-struct PartRange {
+struct PieceRange {
   std::size_t begin, end;
   double radius;
   RigidTransform X_WO;
@@ -77,7 +77,7 @@ struct PartRange {
 template <typename ClearFrom, typename TouchingAt>
 void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double least, double& free,
               double& touching) {
-  for (int i = 0; i < max_advances; ++i) {
+  for (int i = 0; i < most_advances; ++i) {
     const double clear = clear_from(free, touching);
     free += clear;
     if (clear < least) break;
@@ -108,7 +108,7 @@ bool note_neighbour(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* da
 
 struct CollisionWorld::Impl {
   std::vector<Part> parts;
-  std::vector<PartRange> bodies;
+  std::vector<PieceRange> bodies;
   double bench_height;
   NarrowPhase narrow;
   fcl::DynamicAABBTreeCollisionManagerd broadphase;
@@ -164,7 +164,7 @@ struct CollisionWorld::Impl {
       const std::size_t first = found.size();
       append_bench_contacts(part.geometry, X_WS, bench_height, tolerance.in(bench), found);
       if (first_only && found.size() > first) return;
-      if (found.size() - first > max_bench_points) reduce_manifold(first, found);
+      if (found.size() - first > most_bench_points) reduce_manifold(first, found);
     }
     find_near(part.body, geometry::grown(box, std::max(0.0, -tolerance.depth())));
     for (const std::size_t i : near) {
@@ -187,8 +187,8 @@ struct CollisionWorld::Impl {
   /// from `X_WO` on without being deeper in anything than `tolerance`: conservative advancement, part by part. Boxes
   /// stay apart as long as their corners do not cross a plane between them; if the boxes around other shapes overlap,
   /// the gap between their surfaces counts.
-  double free_distance(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
-                       const Tolerance& tolerance, double longest) {
+  double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
+                   const Tolerance& tolerance, double longest) {
     const geometry::StraightMotion path{X_WO.translation(), move_W, X_WO.linear() * turn_O};
     const double fastest = move_W.norm() + bodies[body].radius * turn_O.norm();
     double clear = longest;
@@ -196,20 +196,20 @@ struct CollisionWorld::Impl {
       const RigidTransform X_WS = X_WO * parts[i].X_OS;
       const geometry::OutlineBox own = parts[i].outline(X_WS);
       const Eigen::AlignedBox3d box = parts[i].box_at(X_WS);
-      const double by_corners = geometry::free_fraction_above(own, path, {Vector3d::UnitZ(), bench_height},
-                                                              own.exact ? tolerance.in(bench) : 0.0, clear);
+      const double by_corners = geometry::clear_above(own, path, {Vector3d::UnitZ(), bench_height},
+                                                      own.exact ? tolerance.in(bench) : 0.0, clear);
       clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
       find_near(body, geometry::grown(box, fastest * clear));
       for (const std::size_t other : near) {
         const geometry::OutlineBox others = parts[other].outline(parts[other].X_WS);
         const bool exact = own.exact && others.exact;
         const double depth = tolerance.in(parts[other].body);
-        const double boxes = geometry::free_fraction_to(own, path, others, exact ? depth : 0.0, clear);
+        const double boxes = geometry::clear_of(own, path, others, exact ? depth : 0.0, clear);
         if (exact || boxes >= clear) {
           clear = boxes;
         } else {
           const double surfaces =
-              narrow.free_distance(parts[i].solid, X_WS, parts[other].solid, parts[other].X_WS, depth) / fastest;
+              narrow.clear_way(parts[i].solid, X_WS, parts[other].solid, parts[other].X_WS, depth) / fastest;
           clear = std::max(boxes, std::min(clear, surfaces));
         }
       }
@@ -238,7 +238,7 @@ void CollisionWorld::set_pose(std::size_t body, const RigidTransform& X_WO) { im
 
 bool CollisionWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                                double margin) const {
-  const PartRange& range = impl_->bodies[body];
+  const PieceRange& range = impl_->bodies[body];
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const Eigen::AlignedBox3d box = geometry::grown(impl_->swept_box(impl_->parts[i], X0_WO, X1_WO), margin);
     if (box.min().z() < impl_->bench_height) return true;
@@ -281,7 +281,7 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
   const auto touching_at = [&](double fraction) { return touches(body, at(fraction), tolerance); };
   const auto clear_from = [&](double fraction, double until) {
     return tolerance.depth() < 0.0 ? 0.0
-                                   : impl_->free_distance(body, at(fraction), move, turn, tolerance, until - fraction);
+                                   : impl_->clear_way(body, at(fraction), move, turn, tolerance, until - fraction);
   };
   if (touching_at(0.0)) return {true, 0.0, 0.0};
   const double least = std::min(1.0, resolution / std::max(path, resolution));

@@ -11,9 +11,9 @@
 
 #include "constants.h"
 #include "contact_patches.h"
-#include "containment.h"
-#include "manifold_reduction.h"
 #include "sphere_contacts.h"
+#include "swallowed.h"
+#include "thin_out.h"
 
 namespace spring_workbench::collision {
 namespace {
@@ -37,7 +37,7 @@ fcl::CollisionRequestd which_triangles() {
 }
 
 /// How far from `q` along `n` the box ends, in the box's frame; 0 where `q` is outside already.
-double exit_distance(const geometry::Box& box, const Vector3d& q, const Vector3d& n) {
+double way_out(const geometry::Box& box, const Vector3d& q, const Vector3d& n) {
   double path = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (n[i] == 0.0) continue;
@@ -53,9 +53,9 @@ void NarrowPhase::Solid::make_surface_and_triangles() {
   if (surface) triangles = make_triangles(*surface->mesh);
 }
 
-CylinderSide NarrowPhase::Solid::beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC) {
+BesideCylinder NarrowPhase::Solid::beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC) {
   if (!tree) tree = make_tree(*surface);
-  return CylinderSide(*surface, *tree, cylinder, X_MC);
+  return BesideCylinder(*surface, *tree, cylinder, X_MC);
 }
 
 std::size_t NarrowPhase::add(const geometry::Geometry& geometry) {
@@ -72,14 +72,14 @@ void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X
     sphere_and(own, X_WA, other, X_WB, tolerance, contacts);
   } else if (other.is<geometry::Sphere>()) {
     sphere_and(other, X_WB, own, X_WA, tolerance, contacts);
-    swap_bodies(first, contacts);
+    turn_round(first, contacts);
   } else if (own.is<geometry::Box>() && other.is<geometry::Box>()) {
     boxes(own, X_WA, other, X_WB, tolerance, contacts);
   } else if (own.is<geometry::MeshPtr>() && other.is<geometry::Cylinder>()) {
     mesh_and_cylinder(own_index, X_WA, other_index, X_WB, tolerance, contacts);
   } else if (own.is<geometry::Cylinder>() && other.is<geometry::MeshPtr>()) {
     mesh_and_cylinder(other_index, X_WB, own_index, X_WA, tolerance, contacts);
-    swap_bodies(first, contacts);
+    turn_round(first, contacts);
   } else {
     surfaces(with_triangles(own_index), X_WA, with_triangles(other_index), X_WB, tolerance, contacts);
   }
@@ -91,8 +91,8 @@ const NarrowPhase::Solid& NarrowPhase::with_triangles(std::size_t index) {
   return solid;
 }
 
-double NarrowPhase::free_distance(std::size_t own, const RigidTransform& X_WA, std::size_t other,
-                                  const RigidTransform& X_WB, double tolerance) {
+double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other,
+                              const RigidTransform& X_WB, double tolerance) {
   if (solids_[own].is<geometry::Sphere>() || solids_[other].is<geometry::Sphere>()) {
     if (solids_[own].is<geometry::MeshPtr>() || solids_[other].is<geometry::MeshPtr>()) return 0.0;
     std::vector<ContactPoint> nearest;
@@ -101,10 +101,10 @@ double NarrowPhase::free_distance(std::size_t own, const RigidTransform& X_WA, s
   }
   double rounded_off = 0.0, beside = 0.0;
   if (solids_[own].is<geometry::Cylinder>() && solids_[other].is<geometry::MeshPtr>())
-    return free_distance(other, X_WB, own, X_WA, tolerance);
+    return clear_way(other, X_WB, own, X_WA, tolerance);
   if (solids_[own].is<geometry::MeshPtr>() && solids_[other].is<geometry::Cylinder>()) {
     const geometry::Cylinder& cylinder = std::get<geometry::Cylinder>(solids_[other].geometry);
-    const CylinderSide side = solids_[own].beside(cylinder, X_WA.inverse() * X_WB);
+    const BesideCylinder side = solids_[own].beside(cylinder, X_WA.inverse() * X_WB);
     beside = std::max(0.0, tolerance + side.gap());
     if (side.is_between_ends()) return beside;
     rounded_off = with_triangles(other).surface->rounded_off;
@@ -119,7 +119,7 @@ void NarrowPhase::mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM
                                     const RigidTransform& X_WC, double tolerance, std::vector<ContactPoint>& contacts) {
   const std::size_t first = contacts.size();
   const geometry::Geometry& round = solids_[cylinder].geometry;
-  const CylinderSide side = solids_[mesh].beside(std::get<geometry::Cylinder>(round), X_WM.inverse() * X_WC);
+  const BesideCylinder side = solids_[mesh].beside(std::get<geometry::Cylinder>(round), X_WM.inverse() * X_WC);
   if (!side.append_contacts(std::max(0.0, tolerance), contacts)) {
     surfaces(with_triangles(mesh), X_WM, with_triangles(cylinder), X_WC, tolerance, contacts);
     return;
@@ -131,7 +131,7 @@ void NarrowPhase::mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM
   reduce_manifold(first, contacts);
   if (contacts.size() > first) return;
   append_containment(round, X_WC, solids_[mesh].geometry, {*solids_[mesh].surface, X_WM}, tolerance, contacts);
-  swap_bodies(first, contacts);
+  turn_round(first, contacts);
 }
 
 void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, const Solid& other,
@@ -162,7 +162,7 @@ void NarrowPhase::boxes(const Solid& own, const RigidTransform& X_WA, const Soli
   const geometry::Box reached{std::get<geometry::Box>(other.geometry).size + Vector3d::Constant(2.0 * grown)};
   const fcl::Boxd a(std::get<geometry::Box>(own.geometry).size), b(reached.size);
   fcl_.result.clear();
-  fcl::collide(&a, X_WA, &b, X_WB, fcl::CollisionRequestd(max_box_points, true), fcl_.result);
+  fcl::collide(&a, X_WA, &b, X_WB, fcl::CollisionRequestd(most_box_points, true), fcl_.result);
   for (std::size_t i = 0; i < fcl_.result.numContacts(); ++i) {
     const fcl::Contactd& contact = fcl_.result.getContact(i);
     const Vector3d n_W = -contact.normal;  // FCL's points from own to other
@@ -171,7 +171,7 @@ void NarrowPhase::boxes(const Solid& own, const RigidTransform& X_WA, const Soli
     // FCL's point is in between, and where two edges are nearly parallel it may lie off both.
     const Vector3d half = 0.5 * reached.size;
     const Vector3d p_B = (X_WB.inverse() * contact.pos).cwiseMin(half).cwiseMax(-half);
-    const double path = exit_distance(reached, p_B, X_WB.linear().transpose() * n_W);
+    const double path = way_out(reached, p_B, X_WB.linear().transpose() * n_W);
     contacts.push_back({0, X_WB * p_B + (path - grown) * n_W, n_W, depth});
   }
 }
@@ -196,7 +196,7 @@ void NarrowPhase::surfaces(const Solid& own, const RigidTransform& X_WA, const S
   append_containment(own.geometry, X_WA, other.geometry, other_surface, tolerance, contacts);
   if (contacts.size() > first) return;
   append_containment(other.geometry, X_WB, own.geometry, own_surface, tolerance, contacts);
-  swap_bodies(first, contacts);
+  turn_round(first, contacts);
 }
 
 }  // namespace spring_workbench::collision

@@ -32,8 +32,8 @@ class NarrowPhase {
 
   /// How far every point of a shape may surely go before it is deeper in the other than `tolerance` >= 0 [m]; 0 for a
   /// sphere and a mesh. The whole tolerance is used where depths are exact.
-  double free_distance(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
-                       double tolerance);
+  double clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
+                   double tolerance);
 
  private:
   struct Solid {
@@ -47,7 +47,7 @@ class NarrowPhase {
       return std::holds_alternative<Kind>(geometry);
     }
     void make_surface_and_triangles();
-    CylinderSide beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC);
+    BesideCylinder beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC);
   };
 
   /// Those of boxes and cylinders are made when they are first needed: most resting objects never do.

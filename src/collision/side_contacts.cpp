@@ -93,22 +93,22 @@ std::unique_ptr<TriangleTree> make_tree(const geometry::Surface& surface) {
   return std::make_unique<TriangleTree>(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
-CylinderSide::CylinderSide(const geometry::Surface& surface, const TriangleTree& tree,
-                           const geometry::Cylinder& cylinder, const RigidTransform& X_MC)
+BesideCylinder::BesideCylinder(const geometry::Surface& surface, const TriangleTree& tree,
+                               const geometry::Cylinder& cylinder, const RigidTransform& X_MC)
     : surface_(surface), tree_(tree), cylinder_(cylinder), X_CM_(X_MC.inverse()) {}
 
-double CylinderSide::gap() const {
+double BesideCylinder::gap() const {
   Nearest nearest{{surface_, X_CM_}};
   return Eigen::BVMinimize(tree_, nearest) - cylinder_.radius;
 }
 
-bool CylinderSide::is_between_ends() const {
+bool BesideCylinder::is_between_ends() const {
   const Eigen::AlignedBox3d box = tree_.getVolume(tree_.getRootIndex());
   const double half = X_CM_.linear().row(2).cwiseAbs().dot(0.5 * box.sizes());
   return std::abs((X_CM_ * box.center()).z()) + half < 0.5 * cylinder_.length;
 }
 
-bool CylinderSide::append_contacts(double tolerance, std::vector<ContactPoint>& contacts) const {
+bool BesideCylinder::append_contacts(double tolerance, std::vector<ContactPoint>& contacts) const {
   const View view{surface_, X_CM_};
   std::vector<int> triangles;
   Near near{view, cylinder_.radius - tolerance, triangles};

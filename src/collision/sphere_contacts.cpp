@@ -75,7 +75,7 @@ void append_sphere_triangle_contacts(double radius, const Vector3d& centre_W, co
   }
 }
 
-void swap_bodies(std::size_t first, std::vector<ContactPoint>& contacts) {
+void turn_round(std::size_t first, std::vector<ContactPoint>& contacts) {
   for (std::size_t i = first; i < contacts.size(); ++i) {
     contacts[i].p_W -= contacts[i].depth * contacts[i].n_W;
     contacts[i].n_W = -contacts[i].n_W;

@@ -18,6 +18,6 @@ void append_sphere_triangle_contacts(double radius, const Vector3d& centre_W, co
                                      std::vector<ContactPoint>& contacts);
 
 /// Turns the contacts from `first` on into those of the other body.
-void swap_bodies(std::size_t first, std::vector<ContactPoint>& contacts);
+void turn_round(std::size_t first, std::vector<ContactPoint>& contacts);
 
 }  // namespace spring_workbench::collision

@@ -28,7 +28,7 @@ void ContactLog::reset(std::size_t objects) {
   with_contacts_.clear();
   before_.clear();
   ended_.clear();
-  reported_.clear();
+  told_.clear();
 }
 
 void ContactLog::note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows,
@@ -75,7 +75,7 @@ void ContactLog::exchange(math::StateArchive& state) {
   }
   state(with_contacts_);
   for (const std::size_t object : with_contacts_) state(touching_.at(object));
-  state(ended_, reported_);
+  state(ended_, told_);
 }
 
 std::vector<ContactState> ContactLog::all() const {
@@ -89,14 +89,14 @@ std::vector<ContactState> ContactLog::all() const {
 void ContactLog::begin_call() { before_ = all(); }
 
 void ContactLog::end_call() {
-  reported_ = all();
-  for (ContactState& c : reported_) {
+  told_ = all();
+  for (ContactState& c : told_) {
     c.phase = contains_pair(before_, c) ? ContactPhase::persisting : ContactPhase::started;
   }
   for (ContactState& c : ended_) {
-    if (contains_pair(reported_, c)) continue;
+    if (contains_pair(told_, c)) continue;
     c.phase = ContactPhase::ended;
-    reported_.push_back(c);
+    told_.push_back(c);
   }
   ended_.clear();
 }

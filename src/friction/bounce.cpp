@@ -61,7 +61,7 @@ class GivenBack {
 void give_back(const std::vector<Eigen::MatrixXd>& responses, const std::vector<BouncingContact*>& contacts,
                std::vector<Vector6d>& change) {
   GivenBack back(responses, contacts);
-  for (int iteration = 0; iteration < bounce_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_slides; ++iteration) {
     for (std::size_t i = 0; i < contacts.size(); ++i) back.slide(i, contacts[i]->motion + contacts[i]->by(change));
   }
   double lost = 0.0, slope = 0.0, curvature = 0.0;  // `lost` is a change, not above 0

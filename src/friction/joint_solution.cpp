@@ -156,7 +156,7 @@ bool JointSolution::adapt_penalty(Alternation& at, const VectorXd& last_motion, 
 }
 
 double JointSolution::target_residual(int alternation) const {
-  return alternation < max_alternations ? wanted_ : enough_;
+  return alternation < most_alternations ? wanted_ : enough_;
 }
 
 void JointSolution::alternate() {
@@ -172,7 +172,7 @@ void JointSolution::alternate() {
   Acceleration acceleration;
   VectorXd plain, last_motion = at.z, reduced;
   double last = infinity;
-  for (int k = 0; k < max_alternations_unsolved && result_->residual > target_residual(k); ++k) {
+  for (int k = 0; k < most_alternations_unsolved && result_->residual > target_residual(k); ++k) {
     ++result_->iterations;
     each([&](const auto& c, Index i) {
       at.z.segment<3>(i) = at.w.segment<3>(i) + into_cone(-at.w.segment<3>(i), c.friction);
@@ -225,7 +225,7 @@ VectorXd JointSolution::newton_residual(const VectorXd& reduced, VectorXd& loads
 
 bool JointSolution::iterate_newton(VectorXd& reduced, VectorXd& loads) {
   std::vector<Matrix3d> slopes(contacts_->contacts().size(), Matrix3d::Zero());
-  for (int k = 0; k < max_newton_iterations; ++k) {
+  for (int k = 0; k < most_newton_iterations; ++k) {
     const VectorXd rest = newton_residual(reduced, loads, &slopes);
     const double size = rest.norm();
     if (!(size < infinity)) return false;
@@ -235,7 +235,7 @@ bool JointSolution::iterate_newton(VectorXd& reduced, VectorXd& loads) {
     const VectorXd step = factor_.solve_nonsymmetric(rest);
     VectorXd nearest = reduced - step;
     double least = newton_residual(nearest, loads, nullptr).norm(), share = 1.0;
-    for (int half = 0; half < max_halvings && !(least <= (1.0 - 0.1 * share) * size); ++half) {
+    for (int half = 0; half < most_halvings && !(least <= (1.0 - 0.1 * share) * size); ++half) {
       share *= 0.5;
       const VectorXd tried = reduced - share * step;
       const double size_tried = newton_residual(tried, loads, nullptr).norm();
@@ -251,16 +251,16 @@ bool JointSolution::iterate_newton(VectorXd& reduced, VectorXd& loads) {
 
 void JointSolution::linearise() {
   loads_ = best_;
-  penalty_ = initial_penalty;
+  penalty_ = first_penalty;
   int stalled = 0;
-  for (int k = 0; k < max_rounds && stalled < max_stalled_rounds && result_->residual > enough_; ++k) {
+  for (int k = 0; k < most_rounds && stalled < most_stalled_rounds && result_->residual > enough_; ++k) {
     const double before = result_->residual;
     contacts_->set_loads(loads_);
     VectorXd reduced = contacts_->reduced(), loads = VectorXd::Zero(loads_.size());
     if (!iterate_newton(reduced, loads)) return;
     if (offer(loads) <= 2.0 * result_->residual) {
       loads_ = loads;
-      penalty_ = std::min(penalty_growth * penalty_, max_penalty);
+      penalty_ = std::min(penalty_growth * penalty_, largest_penalty);
     } else {
       penalty_ /= penalty_growth;
     }

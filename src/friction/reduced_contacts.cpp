@@ -4,9 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
-#include <utility>
 
 #include "constants.h"
 
@@ -38,24 +35,16 @@ void ReducedContacts::clear() {
 
 std::size_t ReducedContacts::add_body(const Eigen::Ref<const MatrixXd>& response) {
   const Index n = response.rows();
-  Body& body = bodies_.emplace_back(Body{size_, 0, n, factors_.size()});
-  // Cholesky's factor, by relative pivots, so that no unit matters; what is left of a pivot by rounding is zero.
-  const double rounding = static_cast<double>(n) * std::numeric_limits<double>::epsilon();
-  left_ = response;
-  for (; body.size < n; ++body.size) {
-    Index pivot = 0;
-    double largest = 0.0;
-    for (Index i = 0; i < n; ++i) {
-      const double share = response(i, i) > 0.0 ? left_(i, i) / response(i, i) : 0.0;
-      if (share > largest) std::tie(pivot, largest) = std::pair(i, share);
-    }
-    if (!(largest > rounding)) break;
-    factors_.resize(factors_.size() + static_cast<std::size_t>(n));
-    Eigen::Map<VectorXd> column(&factors_[factors_.size() - static_cast<std::size_t>(n)], n);
-    column = left_.col(pivot) / std::sqrt(left_(pivot, pivot));
-    left_.noalias() -= column.lazyProduct(column.transpose());
-  }
-  size_ += body.size;
+  // Pivoted, so that what gives way little, or not at all, is found with full relative accuracy.
+  const Eigen::LDLT<MatrixXd> ldlt(response);
+  const VectorXd d = ldlt.vectorD().cwiseMax(0.0);
+  Index size = 0;
+  while (size < n && d[size] > 0.0) ++size;
+  bodies_.push_back({size_, size, n, factors_.size()});
+  size_ += size;
+  MatrixXd factor = MatrixXd(ldlt.matrixL()).leftCols(size) * d.head(size).cwiseSqrt().asDiagonal();
+  factor = ldlt.transpositionsP().transpose() * factor;
+  factors_.insert(factors_.end(), factor.data(), factor.data() + factor.size());
   return bodies_.size() - 1;
 }
 
@@ -68,15 +57,10 @@ std::size_t ReducedContacts::add_contact(double friction, const Vector3d& motion
 void ReducedContacts::add_part(std::size_t body, const Eigen::Ref<const Eigen::Matrix3Xd>& jacobian) {
   const Body& b = bodies_[body];
   if (b.size == 0) return;
-  Contact& contact = contacts_.back();
-  auto part = std::find_if(parts_.begin() + static_cast<std::ptrdiff_t>(contact.parts_begin), parts_.end(),
-                           [&](const Part& p) { return p.body == body; });
-  if (part == parts_.end()) {
-    part = parts_.insert(part, {body, b.first, b.size, jacobians_.size()});
-    contact.parts_end = parts_.size();
-    jacobians_.resize(jacobians_.size() + static_cast<std::size_t>(3 * b.size));
-  }
-  Eigen::Map<Eigen::Matrix3Xd>(jacobians_.data() + part->jacobian, 3, b.size) +=
+  parts_.push_back({body, b.first, b.size, jacobians_.size()});
+  contacts_.back().parts_end = parts_.size();
+  jacobians_.resize(jacobians_.size() + static_cast<std::size_t>(3 * b.size));
+  Eigen::Map<Eigen::Matrix3Xd>(jacobians_.data() + parts_.back().jacobian, 3, b.size).noalias() =
       jacobian.lazyProduct(Eigen::Map<const MatrixXd>(factors_.data() + b.factor, b.dofs, b.size));
 }
 
@@ -101,11 +85,16 @@ void ReducedContacts::apply(const Contact& contact, const Vector3d& load, Vector
 double ReducedContacts::prepare() {
   double largest = 0.0;
   reduced_.setZero(size_);
+  VectorXd of_load = VectorXd::Zero(size_);
   for (Contact& c : contacts_) {
-    for (std::size_t p = c.parts_begin; p < c.parts_end; ++p)
-      c.response += jacobian(parts_[p]).lazyProduct(jacobian(parts_[p]).transpose());
+    for (Index k = 0; k < 3; ++k) {  // column by column, since two parts may be of one body
+      apply(c, Vector3d::Unit(k), of_load);
+      c.response.col(k) = change(c, of_load);
+      for (std::size_t p = c.parts_begin; p < c.parts_end; ++p)
+        of_load.segment(parts_[p].first, parts_[p].size).setZero();
+    }
     const double trace = c.response.trace();
-    const bool complies = trace > 0.0 && c.response(0, 0) > min_response * trace;
+    const bool complies = trace > 0.0 && c.response(0, 0) > least_response * trace;
     c.scale = complies ? std::sqrt(3.0 / trace) : 0.0;
     if (!complies) {
       c.load.setZero();
@@ -118,7 +107,7 @@ double ReducedContacts::prepare() {
     c.across = mean + std::hypot(0.5 * (c.response(1, 1) - c.response(2, 2)), c.response(1, 2));
     c.inverse.setZero();
     const Eigen::LLT<Matrix3d> llt(c.response);
-    if (llt.info() == Eigen::Success && llt.rcond() > min_response) c.inverse = llt.solve(Matrix3d::Identity());
+    if (llt.info() == Eigen::Success && llt.rcond() > least_response) c.inverse = llt.solve(Matrix3d::Identity());
     c.motion *= c.scale;
     c.load = into_cone(c.load / c.scale, c.friction);
     for (std::size_t p = c.parts_begin; p < c.parts_end; ++p)

@@ -80,7 +80,6 @@ class ReducedContacts {
   std::vector<Contact> contacts_;
   std::vector<double> factors_, jacobians_;
   Eigen::VectorXd reduced_;
-  Eigen::MatrixXd left_;  ///< of a response that is not factorised yet; a member for its memory
   Eigen::Index size_ = 0;
 };
 

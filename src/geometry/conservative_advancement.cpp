@@ -17,8 +17,8 @@ double positive_until(double a, double b, double c, double longest) {
 }
 
 /// The separating plane moves with the box `own`; the corners are those of the other box.
-double free_fraction_to_corners(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
-                                const Vector3d& n_W, double tolerance, double longest) {
+double clear_of_corners(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
+                        const Vector3d& n_W, double tolerance, double longest) {
   const double lowest = n_W.dot(own.X.translation() - motion.p_WO) - reach(own, n_W);
   const Vector3d n_rate = motion.turn_W.cross(n_W);
   double clear = longest;
@@ -35,8 +35,8 @@ double free_fraction_to_corners(const OutlineBox& own, const StraightMotion& mot
 
 }  // namespace
 
-double free_fraction_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below,
-                           double tolerance, double longest) {
+double clear_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below, double tolerance,
+                   double longest) {
   const double across = below.n_W.cross(motion.turn_W).norm();
   double clear = longest;
   for (const Vector3d& p : corners(own.half)) {
@@ -49,13 +49,13 @@ double free_fraction_above(const OutlineBox& own, const StraightMotion& motion, 
   return clear;
 }
 
-double free_fraction_to(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
-                        double longest) {
+double clear_of(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
+                double longest) {
   const Vector3d n_W = gap_between(own, other).n_W;
   const double top = n_W.dot(other.X.translation()) + reach(other, n_W);
-  const double clear = free_fraction_above(own, motion, {n_W, top}, tolerance, longest);
+  const double clear = clear_above(own, motion, {n_W, top}, tolerance, longest);
   if (clear >= longest) return clear;
-  return std::max(clear, free_fraction_to_corners(own, motion, other, n_W, tolerance, longest));
+  return std::max(clear, clear_of_corners(own, motion, other, n_W, tolerance, longest));
 }
 
 }  // namespace spring_workbench::geometry

@@ -369,8 +369,8 @@ bool overlap(const Solid& a, const RigidTransform& X_WA, const Solid& b, const R
   return pierces(from_b) || pierces(from_a) || is_contained(from_b) || is_contained(from_a);
 }
 
-std::optional<BoxContact> exit_contact(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
-                                       double within) {
+std::optional<BoxContact> way_out(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
+                                  double within) {
   std::optional<BoxContact> found;
   const auto offer = [&](double way, const Vector3d& n) {
     if (!(std::abs(way - depth) <= within)) return;

@@ -86,7 +86,7 @@ std::vector<Contacts> by_normal(Contacts contacts) {
   return groups;
 }
 
-geometry::BoxContact swapped(const geometry::BoxContact& c) { return {c.p_W + c.gap * c.n_W, -c.n_W, c.gap}; }
+geometry::BoxContact turned(const geometry::BoxContact& c) { return {c.p_W + c.gap * c.n_W, -c.n_W, c.gap}; }
 
 /// What has become of a contact, if it is deep, and none that was found pushes as far to that side: it goes on where it
 /// is, so that what is deeper than contacts are found is still pushed out where it went in.
@@ -104,15 +104,15 @@ std::optional<geometry::BoxContact> continued(const btManifoldPoint& before, con
   if (!(depth > deepest_on_path) || std::any_of(contacts.begin(), contacts.end(), replaces)) return {};
   const auto out_of = [&](const btCollisionObjectWrapper& object, const Vector3d& p_W, const Vector3d& out_W) {
     const RigidTransform X_WS = from_bullet(object.getWorldTransform());
-    auto c = geometry::exit_contact(solid_of(object), X_WS.inverse() * p_W, X_WS.linear().transpose() * out_W, depth,
-                                    unswept_of_free);
+    auto c = geometry::way_out(solid_of(object), X_WS.inverse() * p_W, X_WS.linear().transpose() * out_W, depth,
+                               unswept_of_free);
     if (c) *c = {X_WS * c->p_W, X_WS.linear() * c->n_W, c->gap};
     return c;
   };
   const auto of_b = out_of(b, on_a, n_W);
   const auto of_a = out_of(a, on_b, -n_W);
   if (!of_a || (of_b && std::abs(of_b->gap + depth) <= std::abs(of_a->gap + depth))) return of_b;
-  return swapped(*of_a);
+  return turned(*of_a);
 }
 
 /// The contacts of two solids, with what has become of those before. None that touches, though they overlap: as at the
@@ -189,7 +189,7 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
                 const btCollisionObjectWrapper* b)
       : btActivatingCollisionAlgorithm(info, a, b) {
     const bool one_face = is_plane(*a) || is_plane(*b) || (is_box(*a) && is_box(*b));
-    for (std::size_t i = 0; i < (one_face ? 1 : max_manifolds); ++i) {
+    for (std::size_t i = 0; i < (one_face ? 1 : most_manifolds); ++i) {
       manifolds_.push_back(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject()));
       manifolds_.back()->m_companionIdA = a->m_index;
       manifolds_.back()->m_companionIdB = b->m_index;
@@ -239,7 +239,7 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
     Contacts contacts;
     if (is_plane(a)) {
       contacts = contacts_above(b, a, reach);
-      for (geometry::BoxContact& c : contacts) c = swapped(c);
+      for (geometry::BoxContact& c : contacts) c = turned(c);
       return contacts;
     }
     bool lost = false;

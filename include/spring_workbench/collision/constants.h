@@ -11,6 +11,6 @@ namespace spring_workbench::collision {
 constexpr double support_gap = 1e-4;
 /// Of a contact's normal along z, from where on it carries. Larger: what lies on a slope falls, or floats when that is
 /// taken. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 1.
-constexpr double min_support = 0.1;
+constexpr double least_support = 0.1;
 
 }  // namespace spring_workbench::collision

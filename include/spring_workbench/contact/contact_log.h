@@ -30,7 +30,7 @@ class ContactLog {
   /// phases.
   void begin_call();
   void end_call();
-  const std::vector<ContactState>& reported() const { return reported_; }
+  const std::vector<ContactState>& told() const { return told_; }
 
   /// Between two calls of `advance`.
   void exchange(math::StateArchive& state);
@@ -43,7 +43,7 @@ class ContactLog {
   std::set<std::size_t> with_contacts_;              ///< objects that touch something
   std::vector<ContactState> before_;                 ///< when the call began
   std::vector<ContactState> ended_;                  ///< ended in the present call
-  std::vector<ContactState> reported_;
+  std::vector<ContactState> told_;
 };
 
 }  // namespace spring_workbench::contact

@@ -61,7 +61,7 @@ bool overlap(const Solid& a, const RigidTransform& X_WA, const Solid& b, const R
 /// Contact of the point `p_S` inside the solid with the surface at which the line from there along `n_S` leaves the
 /// solid; none if the exit is not at the distance `depth` [m] to within `within` [m]. Surfaces in between are ignored,
 /// so a point that has passed through a thin part is pushed back to where it entered.
-std::optional<BoxContact> exit_contact(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
-                                       double within);
+std::optional<BoxContact> way_out(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
+                                  double within);
 
 }  // namespace spring_workbench::geometry

@@ -1,4 +1,4 @@
-#include "manifold_reduction.h"
+#include "thin_out.h"
 
 #include <algorithm>
 #include <cmath>

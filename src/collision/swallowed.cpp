@@ -1,4 +1,4 @@
-#include "containment.h"
+#include "swallowed.h"
 
 #include <limits>
 #include <utility>
@@ -26,7 +26,7 @@ bool is_inside(const geometry::Geometry& inner, const RigidTransform& X_WI, cons
 }
 
 /// The point of the surface that is nearest to `q`, and its triangle.
-std::pair<Vector3d, int> nearest_surface_point(const geometry::Surface& surface, const Vector3d& q) {
+std::pair<Vector3d, int> nearest_point(const geometry::Surface& surface, const Vector3d& q) {
   std::pair<Vector3d, int> nearest{Vector3d::Constant(std::numeric_limits<double>::infinity()), 0};
   for (int t = 0; t < static_cast<int>(surface.normals.size()); ++t) {
     const Vector3d p = nearest_on_triangle(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2), q);
@@ -49,7 +49,7 @@ void append_containment(const geometry::Geometry& inner, const RigidTransform& X
   const RigidTransform& X_WO = outer_surface.X_WS;
   if (!is_inside(inner, X_WI, outer, X_WO)) return;
   const Vector3d middle_O = X_WO.inverse() * geometry::bounding_box(inner, X_WI).center();
-  const auto [p_O, triangle] = nearest_surface_point(outer_surface.surface, middle_O);
+  const auto [p_O, triangle] = nearest_point(outer_surface.surface, middle_O);
   const Vector3d n_W = X_WO.linear() * outer_surface.surface.normal(triangle);
   const Vector3d p_W = X_WO * p_O;
   const double depth = n_W.dot(p_W) - lowest_along(inner, X_WI, n_W);
