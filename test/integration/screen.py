@@ -21,8 +21,8 @@ def screen(width, height):
         with open(reader) as said:
             number = said.readline().strip()
         assert number, "Xvfb ended while it started, with status %s" % server.wait(DEADLINE)
-        # llvmpipe of Mesa 22.3 corrupts the heap of about one in ten rvizzes that start on a busy machine, with any
-        # plugin or none; softpipe does not
+        # llvmpipe of Mesa 22.3 corrupts the heap of about one in ten rviz processes that start on a busy machine, with
+        # any plugin or none; softpipe does not
         yield dict(os.environ, DISPLAY=":" + number, LIBGL_ALWAYS_SOFTWARE="1", GALLIUM_DRIVER="softpipe")
     finally:
         server.terminate()
