@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Work next to the hand's: loading a scene of large meshes does not disturb the hand; the loop has a real-time
-priority, or reports once why not."""
+"""Work next to the hand's: loading a scene of large meshes does not disturb the hand; steps that take too long lose
+nothing; the loop has a real-time priority, or reports once why not."""
 import contextlib
 import math
 import os
@@ -18,8 +18,9 @@ import roslib.packages
 import rospkg
 import rospy
 import rostest
-from spring_workbench.msg import ObjectStates
-from spring_workbench.srv import LoadScene
+from sensor_msgs.msg import Joy
+from spring_workbench.msg import ObjectStates, StepReport
+from spring_workbench.srv import LoadScene, SetForkStiffness, SetIntegrator
 from tf2_msgs.msg import TFMessage
 
 from stack import DEADLINE, DOWN, Listener, diagnostic_values, diagnostics_listener, stylus_transform, wait_for
@@ -72,6 +73,43 @@ def real_time_priority(pid):
     return max(found)
 
 
+class Hand:
+    """A hand on the wall clock: it moves to its `goal` at SPEED and keeps its button `pressed` until it ends."""
+
+    SPEED = 0.4  # [m/s]
+
+    def __init__(self):
+        self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
+        self.joy = rospy.Publisher("stylus/joy", Joy, queue_size=100)
+        self.position = self.goal = (0.03, 0.0, 0.4)
+        self.pressed, self.ends = False, threading.Event()
+        self.thread = threading.Thread(target=self.run)
+
+    def __enter__(self):
+        wait_for(lambda: self.tf.get_num_connections() and self.joy.get_num_connections(), "the node to listen")
+        self.thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.ends.set()
+        self.thread.join()
+
+    def run(self):
+        while not self.ends.wait(PERIOD):
+            left = math.dist(self.position, self.goal)
+            share = min(1.0, self.SPEED * PERIOD / left) if left > 0.0 else 0.0
+            self.position = tuple(a + share * (b - a) for a, b in zip(self.position, self.goal))
+            now = rospy.Time.from_sec(time.time())
+            self.tf.publish(TFMessage([stylus_transform(now, self.position, DOWN)]))
+            joy = Joy(buttons=[int(self.pressed)])
+            joy.header.stamp = now
+            self.joy.publish(joy)
+
+    def move(self, goal):
+        self.goal = goal
+        wait_for(lambda: self.position == goal, "the hand to arrive")
+
+
 class BesideWork(unittest.TestCase):
     def setUp(self):
         self.diagnostics = diagnostics_listener()
@@ -121,6 +159,41 @@ class BesideWork(unittest.TestCase):
             self.assertNotIn("rejected: too old", said())
             self.assertNotIn("rejected: the loop is stalled", said())
             wait_for(lambda: len(self.shown.last.objects) == 4, "the balls")
+
+    def test_steps_that_take_too_long_lose_nothing(self):
+        """Steps of 1 µs while holding: calls are answered, it is reported that the simulation is behind, and the box is
+        still held, and followed, when steps are long again."""
+        steps = Listener("manipulation/steps", StepReport)
+        self.addCleanup(steps.subscriber.unregister)
+        box = lambda: self.shown.next().objects[0]
+        took = []
+
+        def call(service, kind, *arguments):
+            begin = time.monotonic()
+            answer = rospy.ServiceProxy("manipulation/" + service, kind)(*arguments)
+            took.append(time.monotonic() - begin)
+            self.assertTrue(answer.success, answer.message)
+
+        with node(), Hand() as hand:
+            rospy.wait_for_service("manipulation/set_integrator", DEADLINE)
+            hand.move((0.03, 0.0, 0.22))
+            wait_for(lambda: box().highlighted, "the tip to be in the box")
+            hand.pressed = True
+            wait_for(lambda: box().held, "the box to be held")
+            hand.move((0.03, 0.0, 0.4))
+            call("set_integrator", SetIntegrator, "rk4", 1e-6, 0.0)
+            told, shown = len(steps.messages), len(self.shown.messages)
+            for k in range(8):
+                hand.move((0.03, 0.02 * (k % 2), 0.4))
+                call("set_stiffness", SetForkStiffness, 2000.0, 500.0, 5.0, 0)
+            wait_for(lambda: any(m.behind for m in steps.messages[told:]), "a report that it is behind")
+            call("set_integrator", SetIntegrator, "exponential", 0.02, 0.0)
+            print("the longest of %d calls took %.2f s" % (len(took), max(took)))
+            self.assertLess(max(took), 2.0)
+            self.assertTrue(all(m.objects[0].held for m in self.shown.messages[shown:]))
+            hand.move((0.13, 0.0, 0.4))
+            wait_for(lambda: abs(box().pose.position.x - 0.1) < 0.02, "the box to follow")
+            self.assertTrue(box().held)
 
     def reported_priority(self):
         return wait_for(
