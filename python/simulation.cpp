@@ -121,7 +121,7 @@ void bind_state_access(py::class_<Simulation>& type) {
           "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
           "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
       .def_property_readonly("contacts", &Simulation::contacts,
-                             "Contact points at the present time: a list of Contact.")
+                             "Contact points at the current time: a list of Contact.")
       .def("fork", &Simulation::fork, py::arg("hand") = 0,
            "Returns the state of the tool in a hand, whether or not it is a fork.")
       .def("save", &Simulation::save, "Returns the whole state.")

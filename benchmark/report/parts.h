@@ -15,7 +15,7 @@ struct RunTime {
   double processor = 0.0;           ///< of all its processes [s]
 };
 
-/// The present time, and the processor time of this process and its children so far; `begun` is 0.
+/// The current time, and the processor time of this process and its children so far; `begun` is 0.
 RunTime run_time_now();
 
 /// Results of one shard of a report, or of all of them.

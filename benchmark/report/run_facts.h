@@ -17,7 +17,7 @@ void each_field(RunFact& f, Fields& fields) {
   fields(f.name, f.value);
 }
 
-/// Machine, its present load, compiler, flags, date, command, peers found and not found: what must accompany every
+/// Machine, its current load, compiler, flags, date, command, peers found and not found: what must accompany every
 /// number.
 std::vector<RunFact> run_facts(const std::string& command, const Peers& peers);
 

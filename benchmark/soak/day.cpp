@@ -199,7 +199,7 @@ class Day {
     return *bodies.at(number % bodies.size());
   }
 
-  /// Starts a new recording with the tip in an object at its present position. Returns objects that were thrown out of
+  /// Starts a new recording with the tip in an object at its current position. Returns objects that were thrown out of
   /// reach, and switches the clutch off.
   void take_path(std::size_t number) {
     Hand& hand = hands_[number];

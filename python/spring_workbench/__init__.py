@@ -9,7 +9,7 @@
 
 SI units, right-handed frames, z up. A pose is a 4 x 4 array that takes coordinates of its frame to world; a quaternion
 is x y z w. Invalid input raises InputError, which names the field, what is allowed and what was
-given; nothing has changed then.
+given; the state is then unchanged.
 """
 
 _NAMES = [

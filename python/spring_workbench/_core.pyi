@@ -297,7 +297,7 @@ class Simulation:
         """True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,)."""
     @property
     def contacts(self) -> List[Contact]:
-        """Contact points at the present time: a list of Contact."""
+        """Contact points at the current time: a list of Contact."""
     def fork(self, hand: int = 0) -> Fork:
         """Returns the state of the tool in a hand, whether or not it is a fork."""
     def save(self) -> State:

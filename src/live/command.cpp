@@ -91,7 +91,7 @@ simulation::ChangeReport perform(const Command& command, simulation::Simulation&
       break;
   }
   throw validation::InputError(
-      "command: kind: must be a change of the present scene (not none, load_scene or undo), got " +
+      "command: kind: must be a change of the current scene (not none, load_scene or undo), got " +
       std::to_string(static_cast<int>(command.kind)));
 }
 

@@ -24,7 +24,7 @@ constexpr double rotation_tolerance = 1e-6;
 /// Number of samples over which the statistics of a stream are smoothed. Test:
 /// StreamMonitor.ReportsRateJitterGapsAndAge at 5.
 constexpr std::size_t monitored_samples = 50;
-/// Step of the finite difference for the present acceleration of a proxy [s]. If larger, the acceleration is that of a
+/// Step of the finite difference for the current acceleration of a proxy [s]. If larger, the acceleration is that of a
 /// later time. Test: Proxy.AtPresentIsMovedByTheHandAndByItsOffset at 1e-2.
 constexpr double difference_time = 1e-4;
 /// Offset below which a proxy counts as returned [m, rad]. Test: none: no value tried makes one fail.

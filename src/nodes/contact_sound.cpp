@@ -4,13 +4,13 @@
 
 #include <iostream>
 
-#include "spring_workbench/ros/common/end_in_time.h"
+#include "spring_workbench/ros/common/exit_after_timeout.h"
 #include "spring_workbench/validation/input_error.h"
 
 /// Plays contacts as sound. Exit status 2: bad parameters, or no output for sound.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_sound");
-  spring_workbench::ros_common::end_in_time(ros::isShuttingDown);
+  spring_workbench::ros_common::exit_after_timeout(ros::isShuttingDown);
   try {
     spring_workbench::contact_sound::run(ros::NodeHandle(), ros::NodeHandle("~"));
   } catch (const spring_workbench::validation::InputError& error) {

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "spring_workbench/ros/common/background_log.h"
-#include "spring_workbench/ros/common/end_in_time.h"
+#include "spring_workbench/ros/common/exit_after_timeout.h"
 #include "spring_workbench/ros/manipulation/manipulation_node.h"
 #include "spring_workbench/validation/input_error.h"
 
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler);
   spring_workbench::ros_common::log_in_background();
   end_in_order();
-  spring_workbench::ros_common::end_in_time([] { return end_asked.load(); });
+  spring_workbench::ros_common::exit_after_timeout([] { return end_asked.load(); });
   try {
     const spring_workbench::manipulation::ManipulationNode node(ros::NodeHandle(), ros::NodeHandle("~"));
     while (ros::ok() && !end_asked) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));

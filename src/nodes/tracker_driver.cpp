@@ -5,14 +5,14 @@
 #include <iostream>
 
 #include "spring_workbench/ros/common/background_log.h"
-#include "spring_workbench/ros/common/end_in_time.h"
+#include "spring_workbench/ros/common/exit_after_timeout.h"
 #include "spring_workbench/validation/input_error.h"
 
 /// Publishes the tracker as tf frames and buttons. Exit status 2: bad parameters or motion file.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tracker_driver");
   spring_workbench::ros_common::log_in_background();
-  spring_workbench::ros_common::end_in_time(ros::isShuttingDown);
+  spring_workbench::ros_common::exit_after_timeout(ros::isShuttingDown);
   try {
     spring_workbench::tracker_driver::run(ros::NodeHandle(), ros::NodeHandle("~"));
   } catch (const spring_workbench::validation::InputError& error) {

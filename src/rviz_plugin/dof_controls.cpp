@@ -60,7 +60,7 @@ SetForkDofs::Request DofControls::dofs() const {
 }
 
 SetForkStiffness::Request DofControls::stiffness(int i) const {
-  SetForkStiffness::Request request;  // 0 keeps the present value
+  SetForkStiffness::Request request;  // 0 keeps the current value
   const std::array<double*, 3> fields{&request.stretch, &request.bend, &request.torsion};
   *fields[static_cast<std::size_t>(i)] = dofs_[static_cast<std::size_t>(i)].stiffness->value();
   return request;

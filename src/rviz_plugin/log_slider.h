@@ -16,7 +16,7 @@ class LogSlider : public QWidget {
   /// Range `low` … `high`, 0 < low < high.
   LogSlider(double low, double high, const QString& unit, QWidget* parent = nullptr);
 
-  /// Shows the present value, which may be outside the range.
+  /// Shows the current value, which may be outside the range.
   void show_value(double value);
   /// The value set by the user or, if the slider was not moved, the last value shown.
   double value() const { return value_; }

@@ -34,7 +34,7 @@ class SceneObjects {
   SceneObjects(const SceneObjects&) = delete;
   SceneObjects& operator=(const SceneObjects&) = delete;
 
-  /// Replaces the present bodies, whose shapes `build` makes. Fixed bodies are shown at once, movable ones from their
+  /// Replaces the current bodies, whose shapes `build` makes. Fixed bodies are shown at once, movable ones from their
   /// first pose on. Throws InputError, and changes nothing, if the scene cannot be drawn.
   void describe(const SceneDescriptionConstPtr& scene);
   /// Builds shapes for `time` [s], but one or a piece of one at least, unless the normals of all that are left are

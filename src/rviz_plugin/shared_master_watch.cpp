@@ -6,7 +6,7 @@
 
 #include "constants.h"
 #include "spring_workbench/ros/common/callback_thread.h"
-#include "spring_workbench/ros/common/end_in_time.h"
+#include "spring_workbench/ros/common/exit_after_timeout.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -29,7 +29,7 @@ const ros_common::MasterWatch& shared_master_watch() {
   static std::unique_ptr<WatchInThread> shared;
   if (!shared) {
     shared = std::make_unique<WatchInThread>();
-    ros_common::end_in_time([] { return quits || ros::isShuttingDown(); }, EXIT_SUCCESS, exit_timeout);
+    ros_common::exit_after_timeout([] { return quits || ros::isShuttingDown(); }, EXIT_SUCCESS, exit_timeout);
     QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, [] {
       quits = true;
       shared.reset();

@@ -230,7 +230,7 @@ bool Hand::calibrate(ChangeReport& change, double now) {
   if (!calibrate_hold()) return false;
   hold_->regrasp(before.X_WO, pull);
   keep_twist(before.V_WO_W);
-  change.message = "calibrated for " + before.name;
+  change.message = to_world() ? "restored the scene's stiffness" : "calibrated for " + before.name;
   return true;
 }
 

@@ -89,7 +89,7 @@ class Hand {
   /// Prepares a step in which the tool slips in the hand. Returns the held object as one that no tool holds, under
   /// `load_W` at its centre, world axes.
   bodies::SteppedBody* begin_slip(const Wrench& load_W);
-  /// Ends a step of `h` [s] in which the tool slipped, with the stylus at its present pose.
+  /// Ends a step of `h` [s] in which the tool slipped, with the stylus at its current pose.
   void end_slip(const Wrench& at_tip_W, double h) {
     slip_.begin(stylus_.X_WS(), hold_->slip(h, {object().X_WO, object().V_WO_W, {}}, at_tip_W));
   }
@@ -113,7 +113,7 @@ class Hand {
   tools::GraspedBody grasped_body() const {
     return {objects_.scene_index(grasp_.object), objects_.body(grasp_.object), object().X_WO};
   }
-  /// Returns the grasp of the object at its present pose, for a tool of default size.
+  /// Returns the grasp of the object at its current pose, for a tool of default size.
   tools::Grasp grasp_of(std::size_t object) const;
   /// Fits the length of the fork's spring part to the size of an object that has mass.
   void fit_size(tools::Grasp& grasp) const;

@@ -16,7 +16,7 @@ class ForkCoupling final : public dynamics::Coupling {
   /// Keeps a reference to `held`. `since`: time of the grasp [s].
   ForkCoupling(const dynamics::HeldBody& held, double since);
 
-  /// Sets the present strain, in all coordinates of the held body's shape, from which the inverse kinematics starts.
+  /// Sets the current strain, in all coordinates of the held body's shape, from which the inverse kinematics starts.
   void set_strain(const rod::StrainVector& strain);
   Key key() const override { return {since_, held_.version()}; }
   void pull(const double& t, const dynamics::RelativeMotion<double>& A_O, dynamics::Pull<double>& pull) const override;

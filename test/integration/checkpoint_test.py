@@ -31,7 +31,7 @@ class Checkpoint(unittest.TestCase):
         self.addCleanup(self.kill)
 
     def start(self, scene=SCENE, path=None):
-        """Starts a new master and a new node after killing the present ones."""
+        """Starts a new master and a new node after killing the current ones."""
         self.kill()
         port = self.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
         self.master = subprocess.Popen(["rosmaster", "--core", "-p", port], env=self.environment)

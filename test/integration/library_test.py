@@ -93,7 +93,7 @@ class Library(unittest.TestCase):
         (source / "readme.cpp").write_text(
             "#include <spring_workbench/spring_workbench.h>\n#include <cstdio>\n"
             f"int main() {{\n{lines}"
-            'std::printf("%.6f", simulation.objects()[0].X_WO.translation().z());\n}\n'
+            'std::printf("%.6f", sim.objects()[0].X_WO.translation().z());\n}\n'
         )
         weight, height = run(self.program("01_readme"), cwd=ROOT).stdout.splitlines()
         self.assertEqual(weight, "0.500 kg")

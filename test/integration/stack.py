@@ -157,7 +157,7 @@ class Hand:
         self.move(self.position, self.rotation, seconds, samples)
 
     def move(self, position, rotation, seconds, samples=True):
-        """Moves at constant speed from the present pose, with normalised interpolation of the rotation."""
+        """Moves at constant speed from the current pose, with normalised interpolation of the rotation."""
         steps = max(1, round(seconds / self.STEP))
         from_position, from_rotation = self.position, self.rotation
         for k in range(1, steps + 1):

@@ -329,7 +329,7 @@ class Tools(unittest.TestCase):
             self.assertLessEqual(sent, {round(stamp / sample) for stamp, _ in pairs})
 
     def test_each_hand_has_settings_of_its_own(self):
-        """Both carry the box, each with its own springs. Setting the present values for both moves nothing."""
+        """Both carry the box, each with its own springs. Setting the current values for both moves nothing."""
         self.lift()
         self.hand.further = {2: (-0.03, 0.0, LIFTED[2])}
         self.hand.run(0.3)

@@ -6,7 +6,7 @@
 
 namespace spring_workbench {
 
-/// A view of the present state of a simulation.
+/// A view of the current state of a simulation.
 inline live::View view_of(const simulation::Simulation& simulation) {
   live::SharedStates objects;
   return live::view_of(simulation, std::make_shared<const scene::Scene>(simulation.scene()), objects);

@@ -33,7 +33,7 @@ class OperatorHands {
 
   void press(std::size_t hand, bool pressed) { hands_[hand].pressed = pressed; }
   /// Starts a joint reach of these hands at `t_from` [s]. Each goes to its `X_WH` from the end of its last reach or, if
-  /// it is still moving, from its present pose. All take as long as the slowest one; returns the time at which they
+  /// it is still moving, from its current pose. All take as long as the slowest one; returns the time at which they
   /// arrive [s].
   double reach(const Numbers& hands, const std::function<RigidTransform(std::size_t)>& X_WH, double t_from);
   /// Moves a hand along its reach to time `t` [s] and returns its sample.

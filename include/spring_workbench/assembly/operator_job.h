@@ -20,7 +20,7 @@ class OperatorJob {
   std::vector<Vector3d> grips() const;
   /// Whether the object is at its target or, if it cannot be turned, at the target's position.
   bool done(const bodies::BodyState& object, bool turns) const;
-  /// The pose of its frame O `lift` [m] above its target; if it cannot be turned, with its present orientation.
+  /// The pose of its frame O `lift` [m] above its target; if it cannot be turned, with its current orientation.
   RigidTransform goal(const bodies::BodyState& object, bool turns, double lift) const;
   /// Whether it is too far from `X_WO_goal` to be set down: horizontally, in angle or, with `height_too`, in height.
   bool off(const bodies::BodyState& object, const RigidTransform& X_WO_goal, bool height_too) const;

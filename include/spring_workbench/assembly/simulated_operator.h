@@ -26,7 +26,7 @@ class SimulatedOperator final : public motion::StylusSource {
  public:
   using Observe = std::function<OperatorView()>;
 
-  /// `look` is called once per sample time and returns the present state. Each hand starts at the scene's start pose of
+  /// `look` is called once per sample time and returns the current state. Each hand starts at the scene's start pose of
   /// its handle, and grasps objects in that orientation. Throws InputError if a setting is out of range.
   SimulatedOperator(const scene::Scene& scene, const OperatorSettings& settings, Observe look);
 

@@ -18,8 +18,8 @@ struct TaskScore {
   int drops = 0;   ///< releases after which the object fell by more than 2 cm
   int broken = 0;  ///< objects on which a contact force exceeded the `max_force` of their target
   double largest_force = 0.0;   ///< largest contact force on an object [N]
-  double position_error = 0.0;  ///< present mean over the targets [m]
-  double angle_error = 0.0;     ///< present mean over the targets that constrain the angle [rad]
+  double position_error = 0.0;  ///< current mean over the targets [m]
+  double angle_error = 0.0;     ///< current mean over the targets that constrain the angle [rad]
   bool complete() const { return targets > 0 && placed == targets; }
 };
 

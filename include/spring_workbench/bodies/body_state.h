@@ -43,11 +43,12 @@ class Changes {
   Changes(const Changes&) = delete;
   Changes& operator=(const Changes&) = delete;
 
-  /// There are so many objects, and all of them have changed.
+  /// Resets the record to `objects` objects, all of which count as changed.
   void reset(std::size_t objects);
   void note(std::size_t object);
   Moment now() const { return {self_, count_}; }
-  /// The objects that have changed since `then`, in ascending order; all if that is of other objects.
+  /// The objects that have changed since `then`, in ascending order; all if `then` was taken from
+  /// another `Changes`.
   std::vector<std::size_t> since(const Moment& then) const;
 
   /// The objects that may differ from the same ones of `other`: those that have changed, here or there, since the last
@@ -68,7 +69,7 @@ class Changes {
 
   std::shared_ptr<const void> self_ = std::make_shared<char>();
   std::uint64_t count_ = 0;
-  std::vector<Link> links_;  ///< by object; the last one is no object: the newest is older than it
+  std::vector<Link> links_;  ///< by object; the last one is not an object: the newest is older than it
   Moment own_, others_;      ///< of the last followed()
 };
 

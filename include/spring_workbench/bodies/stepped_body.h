@@ -43,7 +43,7 @@ class SteppedBody {
   virtual ~SteppedBody() = default;
 
   virtual std::size_t index() const = 0;  ///< index in the scene
-  /// Returns the present pose and velocity of the object frame, in world axes.
+  /// Returns the current pose and velocity of the object frame, in world axes.
   virtual motion::MotionState object() const = 0;
 
   /// Advances the body by `h` [s] under a constant wrench at the centre of mass, in world axes. Returns false, and

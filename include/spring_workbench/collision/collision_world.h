@@ -69,7 +69,7 @@ class CollisionWorld {
   virtual bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                          double margin) const;
 
-  /// Returns the bodies, the bench among them, that the boxes around come into `box_W`, in the order of their indices.
+  /// Returns the bodies, including the bench, whose bounding boxes reach into `box_W`, in the order of their indices.
   virtual std::vector<std::size_t> near(const Eigen::AlignedBox3d& box_W) const;
 
   /// Returns whether the body, placed at `X_WO`, penetrates another body or the bench by more than `tolerance`.

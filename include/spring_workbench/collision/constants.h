@@ -9,8 +9,9 @@ namespace spring_workbench::collision {
 /// with a larger gap above all others falls at the start. Larger: it hangs in the air. Test:
 /// Falling.WhatNothingCarriesFallsAndWhatStandsStays at 0.1.
 constexpr double support_gap = 1e-4;
-/// Of a contact's normal along z, from where on it carries. Larger: what lies on a slope falls, or floats when that is
-/// taken. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 1.
+/// A contact carries a body if the z component of its unit normal exceeds this. Larger: a body on a slope falls at the
+/// start, or hangs in the air when the slope is taken away. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays
+/// at 1.
 constexpr double least_support = 0.1;
 
 }  // namespace spring_workbench::collision

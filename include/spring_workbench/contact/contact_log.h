@@ -26,7 +26,7 @@ class ContactLog {
   void take(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
 
-  /// Mark the begin and the end of a call of `advance`; after it, told() has the contacts of that call with their
+  /// Mark the start and the end of a call of `advance`; after it, told() has the contacts of that call with their
   /// phases.
   void begin_call();
   void end_call();

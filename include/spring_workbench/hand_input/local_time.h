@@ -2,7 +2,7 @@
 
 namespace spring_workbench::hand_input {
 
-/// The present moment on two clocks [s].
+/// The current moment on two clocks [s].
 struct LocalTime {
   double loop = 0.0;      ///< clock of the loop: the steady clock or, under use_sim_time, simulated time
   double attended = 0.0;  ///< time that this process has spent running, by the steady clock: each reading adds at most

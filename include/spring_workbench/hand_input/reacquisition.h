@@ -47,7 +47,7 @@ class Reacquisition {
   motion::PoseSample tracked_;                ///< the newest one, as it was tracked
   bool catching_up_ = false;
   double catch_up_began_ = 0.0;  ///< [s]
-  bool loss_noted_ = false;      ///< the present loss is counted
+  bool loss_noted_ = false;      ///< the current loss is counted
   std::deque<double> releases_;  ///< not taken yet
   ReacquisitionCounts counts_;
 };

@@ -16,13 +16,13 @@ namespace spring_workbench::instruments {
 class ReadingAverage {
  public:
   /// Adds the tool's readings at time `t` [s] and fills in their averages; until the first interval is complete, these
-  /// are the present readings with unknown uncertainty. A time before the last one, or another object, starts a new
+  /// are the current readings with unknown uncertainty. A time before the last one, or another object, starts a new
   /// average. `X_WT`: pose of the touched object, if it is movable.
   void take(double t, tools::ToolState& tool, const RigidTransform& X_WT = RigidTransform::Identity());
   /// Fills in the latest averages if `tool` carries or touches the same object; otherwise its own readings with unknown
   /// uncertainty.
   void fill_in(tools::ToolState& tool) const;
-  /// Returns the material estimate of the present touch of the probe; none if it touches nothing.
+  /// Returns the material estimate of the current touch of the probe; none if it touches nothing.
   const std::optional<MaterialReading>& material() const { return material_; }
   std::vector<MaterialEstimate::CurvePoint> force_over_depth() const {
     return touch_ ? touch_->estimate.curve() : std::vector<MaterialEstimate::CurvePoint>();

@@ -14,7 +14,7 @@ namespace spring_workbench::live {
 class HandTimes {
  public:
   /// `hands`: number of hands; `simulated_time`: whether the clock is simulated. If so, a hand whose epoch is clearly
-  /// before the present simulation time belongs to another run and does not join; on the wall clock every hand joins.
+  /// before the current simulation time belongs to another run and does not join; on the wall clock every hand joins.
   HandTimes(std::size_t hands, bool simulated_time) : simulated_time_(simulated_time), shifts_(hands) {}
 
   /// Returns whether a hand whose epoch is `zero` [ns] joins the other hands at simulation time `t` [s]; false means
@@ -31,9 +31,9 @@ class HandTimes {
   void skip(double seconds);
   /// Returns the time skipped since the last call [s].
   double take_skipped() { return std::exchange(skipped_, 0.0); }
-  /// Returns the simulation time of a stamp [ns] [s].
+  /// Converts a stamp [ns] to simulation time [s].
   double time_of_stamp(std::int64_t stamp) const { return 1e-9 * static_cast<double>(stamp - zero_); }
-  /// Returns the stamp of a simulation time `t` [s] [ns].
+  /// Converts simulation time `t` [s] to a stamp [ns].
   std::int64_t stamp_of(double t) const { return zero_ + std::llround(1e9 * t); }
 
  private:

@@ -24,7 +24,7 @@ struct Change {
       state;  ///< state after the change; empty if nothing changed and only the hash is recorded
 };
 
-/// Returns an entry that changes nothing and only records the hash of the present state.
+/// Returns an entry that changes nothing and only records the hash of the current state.
 Change comparison_of(const simulation::Simulation& simulation);
 
 /// Entry of the journal of a live run. Entries are numbered without a gap.

@@ -120,7 +120,7 @@ class SimulationRunner {
   void restart();
   /// Undoes the last edit or restart (class Undo). The task restarts, as after an edit.
   std::string undo();
-  /// Loads another scene with the present settings. Throws InputError, and keeps the old scene, if they do not match.
+  /// Loads another scene with the current settings. Throws InputError, and keeps the old scene, if they do not match.
   void load(const scene::Scene& scene);
   /// Loads a scene with the tools, settings and poses of a saved state; nothing is held. The objects keep these poses
   /// when the first hand arrives and time restarts. Throws InputError, and changes nothing, if the state does not match
@@ -134,15 +134,15 @@ class SimulationRunner {
     const Lock lock(mutex_);
     return use(simulation_);
   }
-  /// The present scene with all edits.
+  /// The current scene with all edits.
   std::shared_ptr<const scene::Scene> scene() const {
     return locked([this](const auto&) { return scene_; });
   }
-  /// Makes a change of the present scene, which the journal calls `what`. Throws as perform().
+  /// Makes a change of the current scene, which the journal calls `what`. Throws as perform().
   simulation::ChangeReport change(const std::string& what, const Command& command);
-  /// Starts the journal, with the present state as its first entry, or stops it.
+  /// Starts the journal, with the current state as its first entry, or stops it.
   void keep_journal(bool keep);
-  /// Records the hash of the present state in the journal, for comparison.
+  /// Records the hash of the current state in the journal, for comparison.
   void note_state();
   /// Returns the entries since the last call.
   std::vector<Entry> take_journal() {

@@ -27,7 +27,7 @@ struct View {
   }
 };
 
-/// Makes a view. `scene`: the simulation's present scene; `objects`: those of the previous view, which are updated.
+/// Makes a view. `scene`: the simulation's current scene; `objects`: those of the previous view, which are updated.
 View view_of(const simulation::Simulation& simulation, std::shared_ptr<const scene::Scene> scene,
              SharedStates& objects);
 

@@ -17,7 +17,7 @@ class PoseTrack {
 
   /// Adds a sample. Returns false, and ignores it, if its stamp is not later than the newest one by at least half a
   /// nanosecond. Throws InputError when the sample is not finite, is out of any range (|t| > 1e12 s, |p| > 1e9 m) or
-  /// its linear part is no rotation.
+  /// its linear part is not a rotation.
   bool push(const PoseSample& sample);
 
   bool empty() const { return nodes_.empty(); }

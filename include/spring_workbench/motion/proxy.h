@@ -18,10 +18,10 @@ class Proxy {
   /// Changes the rate by the twist `change` about the point `p` of world [m], as an impulse does.
   void add_rate(const Twist& change, const Vector3d& p);
 
-  /// Returns the mean rate of change from the present offset to `offset` over `h` [s], as seen by the proxy of a hand
+  /// Returns the mean rate of change from the current offset to `offset` over `h` [s], as seen by the proxy of a hand
   /// that is then at `hand` [m].
   Twist rate_to(const RigidTransform& offset, const Vector3d& hand, double h) const;
-  /// Returns the offset reduced to the fraction `left` of the present one.
+  /// Returns the offset reduced to the fraction `left` of the current one.
   RigidTransform reduced_to(double left) const;
   /// Returns the proxy's motion from `t` [s] over `h` [s], at the end of which the offset is `offset`. The offset has
   /// the rate `rate` from the start, because a proxy has no mass.

@@ -56,7 +56,7 @@ class FreeObjects : public ObjectList {
   bool carry(bodies::SteppedBody& stepped, std::size_t object, double h, const contact::ContactStepper::MayGo& may_go,
              StepCounts& counts);
   static void note(const contact::ContactOutcome& outcome, StepCounts& counts);
-  /// Releases an object into free flight from its present state; a massless one stays in place.
+  /// Releases an object into free flight from its current state; a massless one stays in place.
   void start_free_flight(std::size_t object, double now);
   void set_free(std::size_t object, const Twist& V_WO_W, double now);
   void put_to_sleep_if_slow(std::size_t object, double now);

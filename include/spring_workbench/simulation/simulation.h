@@ -66,7 +66,7 @@ struct AdvanceReport {
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
   int steps_among_movable = 0;     ///< steps near other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
-  int substeps = 0;  ///< discarded attempts, repeated with a shorter step (equation not solved, or error too large)
+  int substeps = 0;  ///< discarded attempts, each repeated with shorter steps: equation not solved, or error too large
   int stops = 0;     ///< steps that met the end of the fork's range
   int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
@@ -176,7 +176,7 @@ class Simulation {
   /// added object is read from `roots` as in load_scene(), and again by restore(). Also throws InputError if a held
   /// object is to be moved, or if an added or moved object would overlap another body by more than 0.1 mm.
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {});
-  /// The scene with all edits, with its objects at their present poses.
+  /// The scene with all edits, with its objects at their current poses.
   scene::Scene scene_now() const;
   /// Calibrates one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
   /// scene's stiffness. Damping ratios are not changed. Throws InputError if no fork or spring holds an object.
@@ -186,7 +186,7 @@ class Simulation {
   const bodies::Changes& object_changes() const;          ///< changes of the states in objects()
   tools::ToolState fork(std::size_t hand = 0) const;      ///< state of the tool in a hand, whether or not it is a fork
   const std::vector<contact::ContactState>& contacts()
-      const;  ///< present contacts, and those that ended in the last call
+      const;  ///< current contacts, and those that ended in the last call
 
   /// Saves the whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
   /// starts, histories of integrators, the settings that can be changed while running, and the edits. Two saves of one

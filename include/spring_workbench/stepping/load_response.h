@@ -8,13 +8,13 @@ namespace spring_workbench::stepping {
 /// load is. A stop at the end of the rod's range that a correction meets holds until the next step.
 class LoadResponse {
  public:
-  /// Another step of a body with so many coordinates.
+  /// Begins a step of a body with `size` coordinates: no stop has been met.
   void begin_step(int size) { stops_.resize(size, 0); }
   /// The stops met in this step: by column, how much more of its range the rod uses, by strain.
   const rod::StrainMatrix& stops() const { return stops_; }
 
-  /// The integrator's response, or where that is not positive definite, far from straight, that of the springs alone by
-  /// the implicit Euler rule: nothing comes towards a load. It does not go through the stops.
+  /// The integrator's response or, where that is not positive definite (far from straight), that of springs, dampers
+  /// and mass alone by the implicit Euler rule, so that nothing moves against its load. It does not cross stops met.
   dynamics::Integrator::Response response(dynamics::Integrator& integrator, const dynamics::HeldBody& body,
                                           const dynamics::HandleForcing& handle, double h,
                                           const dynamics::StrainState& state) const;

@@ -27,7 +27,7 @@ struct ErrorBounds {
 struct ControlledStep {
   bool accepted = true;         ///< false: no step was possible from the given state, and none was taken
   int steps = 0;                ///< steps taken
-  int substeps = 0;             ///< attempts that were discarded and repeated with a shorter step
+  int substeps = 0;             ///< discarded attempts, each repeated with shorter steps (not the steps taken instead)
   int fallback = 0;             ///< steps taken by fallback_step()
   int stops = 0;                ///< steps that met the end of the rod's range
   double position_error = 0.0;  ///< largest estimate of a step's local error, at the object's centre of mass [m]
@@ -40,12 +40,12 @@ struct ControlledStep {
 
 /// Integrates the held body over a span of time, in one step or in as many as needed.
 ///
-/// A method that no stiffness limits takes shorter steps (halves, to the 64th part of the span) if it does not solve
-/// its equation or does not keep to its energy (Integrator::Energy): its error in energy, by its own estimate or by
-/// what the motion is seen to gain, whichever is more, may be a hundredth, in a minute, of what there is; one that
-/// takes energy away may gain as much. The shortest steps may use a tenth of a second's worth in advance. A step
-/// that still fails is taken by an L-stable rule that always has a solution (fallback_step.h). A strain beyond the
-/// rod's range meets a stop (range_stop.h). So every span is completed.
+/// A method that is stable at any stiffness takes shorter steps (halves, down to a 64th of the span) if it does not
+/// solve its equation or conserve energy well enough (Integrator::Energy). Its energy error (its own estimate or the
+/// gain seen in the motion, whichever is larger) may add up, in a minute, to a hundredth of the energy there is; a
+/// method that dissipates energy may gain as much. The shortest steps may use the budget of a tenth of a second in
+/// advance. A step that still fails is taken by an L-stable rule that always has a solution (fallback_step.h). A strain
+/// beyond the rod's range meets a stop (range_stop.h). So every span is completed.
 ///
 /// A tolerance bounds the error of the run at any time: the estimates of all local errors so far, each propagated to
 /// the present by the method itself. Its size is the distance of the object's centre of mass from where it should be
@@ -53,7 +53,7 @@ struct ControlledStep {
 /// grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two ten-thousandths of the span, is
 /// taken whatever its error.
 ///
-/// With `error_bound`, the error of the run is followed from the grasp on, and anew after anything that cannot be
+/// With `error_bound`, the error of the run is followed from the grasp on, and restarted after anything that cannot be
 /// followed (Integrator::follow). For a method without an interpolant of its own, `exponential` is carried along, and
 /// what is followed is the distance between the two.
 class StepControl {

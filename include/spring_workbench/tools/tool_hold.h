@@ -19,7 +19,7 @@ class ToolHold : public bodies::SteppedBody {
   // If several tools hold an object, one leads: it carries the object, and the others pull on it as couplings in its
   // equation of motion. They then follow to the object's new pose (doc/model.md, "Several tools on one object").
   virtual double since() const = 0;  ///< time of the grasp [s]
-  /// Returns this tool as the coupling of a follower, for the steps from the present state on.
+  /// Returns this tool as the coupling of a follower, for the steps from the current state on.
   virtual const dynamics::Coupling& coupling() = 0;
   /// Makes this tool the leader, with `others` as followers; if there are none, it holds the object alone. Call before
   /// each step.
@@ -35,7 +35,7 @@ class ToolHold : public bodies::SteppedBody {
 
   /// Sets a constant wrench on the object at its centre, world axes, in addition to contact. Call before each step.
   virtual void set_load(const Wrench& load_W) = 0;
-  /// Sets the present time [s] and the motion of the hand, which must cover the following steps.
+  /// Sets the current time [s] and the motion of the hand, which must cover the following steps.
   virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
   /// Whether nothing moves for the next `h` [s], so that advance_at_rest() is enough: the hand is at rest, and the
   /// object has come to rest on the tool. `may_fall_asleep`: false if something else may move the object.

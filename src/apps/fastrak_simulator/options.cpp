@@ -46,7 +46,7 @@ fastrak_simulator --motion FILE [--motion FILE ...] [--link PATH] [--rate HZ] [-
               of waypoints; poses of the receiver in the transmitter's frame, played in a loop. The first one is for
               station 1, with the button of the stylus; up to four
   --link      a symbolic link to the pseudo-terminal, whose path is printed on standard output in any case
-  --rate      records per second of all stations together, 0.1 ... 10000; default 120, as the device
+  --rate      records per second of all stations together, 0.1 ... 10000; default 120, like the device
   --speed     speed of the device's clock, 0.01 ... 1000; default 1
   --duration  run time by the device's clock [s]; 0, the default: until interrupted
   --switch    the switch of station K, 2 ... 4, also works, with the button of its motion. An original device has only

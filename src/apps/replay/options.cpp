@@ -120,17 +120,17 @@ RUN.fork.csv, a line per output time and hand:
   weight,weight_mean,weight_uncertainty     [vkg] the tool as a scale: now, over the last second, standard deviation
   torque,torque_mean,torque_uncertainty     [N*m] the tool as a torque wrench
   material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
-  error_bound,error_bounded                 [m] of the position; 0: it is no bound
+  error_bound,error_bounded                 [m] bound of the position's error; 1 if it is valid, else 0
 
 The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
-samples, samples_rejected (by the rules of input.*; rejected has the reasons), dropouts (gaps longer than
-dropout_after), reacquisitions, losses (of the hand), position_error [m] and angle_error [rad] (the largest estimate of
-a step's local error), local_error_bound [m] (null: none), error_bound [m] and angle_error_bound [rad] (of the run, the
-largest; null: none), steps_unbounded (for which there was none), energy_balance [J] (added by integration beyond hand,
-gravity, damping and contact), stiffest_omega_dt, contacts (pairs, at the output times), collision_queries, substeps
-(attempts repeated with a shorter step), stops (at the end of the fork's range), steps_fallback (by an L-stable rule),
-steps_blocked (no motion admitted), steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by
-services and panels), changes_made_again, changes_mismatched (again with another state), state_hash, active, skipped.
+samples, samples_rejected (by input.*; reasons in rejected), dropouts (gaps over dropout_after), reacquisitions, losses
+(of the hand), position_error [m] and angle_error [rad] (largest estimate of a step's local error), local_error_bound
+[m] (null: none), error_bound [m] and angle_error_bound [rad] (largest of the run; null: none), steps_unbounded (without
+bound), energy_balance [J] (added by integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts
+(pairs, at the output times), collision_queries, substeps (discarded attempts, repeated with shorter steps), stops (at
+the end of the fork's range), steps_fallback (by an L-stable rule), steps_blocked (no motion admitted), steps_unsolved
+(contact missed its law), time_lost [s], steps_rejected, changes (by services and panels), changes_made_again (repeated,
+not loaded), changes_mismatched (repeated, with another result), state_hash, active, skipped.
 Exit status: 0 done; 1 failed; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning

@@ -44,7 +44,7 @@ void WrenchInput::add_to(live::HandEvents& events) {
   }
 }
 
-/// The local time of a stamp if it is close to the present time, otherwise the present time [ns].
+/// The local time of a stamp if it is close to the current time, otherwise the current time [ns].
 std::int64_t WrenchInput::local_stamp(Sensor& sensor, const ros::Time& stamp) const {
   if (!ros::Time::isSimTime())
     return sensor.clock.local_or_now(ros_common::nanoseconds_of(stamp), ros_common::wall_moment());

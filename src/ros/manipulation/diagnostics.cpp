@@ -119,7 +119,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   status.add("time since the master's last reply [s]", loop.master_silence);
   if (loop.master_silence > master_timeout) {
     status.raise(DiagnosticStatus::WARN,
-                 "the ROS master does not answer: present connections stay, new ones are impossible");
+                 "the ROS master does not answer: current connections stay, new ones are impossible");
   }
   if (!loop.checkpoint_error.empty()) status.raise(DiagnosticStatus::WARN, loop.checkpoint_error);
   if (loop.advance.steps_rejected > last_loop_.advance.steps_rejected) {

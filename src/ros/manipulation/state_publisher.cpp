@@ -35,7 +35,7 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
 void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   const std::uint32_t listeners =
       std::min(accepted_publisher_.getNumSubscribers(), changes_publisher_.getNumSubscribers());
-  // A late subscriber starts with the present state.
+  // A late subscriber starts with the current state.
   if (listeners > journal_listeners_) runner.keep_journal(true);
   if (listeners == 0 && journal_listeners_ > 0) runner.keep_journal(false);
   journal_listeners_ = listeners;

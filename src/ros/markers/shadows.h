@@ -21,7 +21,7 @@ class Shadows {
   live::SharedStates drawn_;
   std::vector<const scene::Body*> bodies_;  ///< bodies of the objects
   std::map<std::size_t, std::vector<Vector3d>>
-      corners_;  ///< corners of the triangles of the present shadows, by object
+      corners_;  ///< corners of the triangles of the current shadows, by object
 };
 
 }  // namespace spring_workbench::markers

@@ -13,7 +13,7 @@
 #include "spring_workbench/registration/touches.h"
 #include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/conversions.h"
-#include "spring_workbench/ros/common/end_in_time.h"
+#include "spring_workbench/ros/common/exit_after_timeout.h"
 #include "spring_workbench/ros/common/master_watch.h"
 #include "spring_workbench/ros/common/parameters.h"
 
@@ -89,8 +89,8 @@ register_tracker --pivot          [--motion FILE] [--registration FILE] [--large
   --largest-residual  largest error of a touch, or rms of the tip [mm]; default 5
   --out               the file to write, for `registration:=` of workbench.launch and fastrak.launch
 
-Exit status: 0 done; 1 failed; 2 invalid arguments or touches, with one line on standard error; nothing is
-written then.
+Exit status: 0 done; 1 failed; 2 invalid arguments or touches, with one line on standard error. If it is not 0,
+nothing is written.
 )";
 }
 
@@ -122,7 +122,7 @@ void run(const Options& options, int argc, char** argv) {
   registration::StoredRegistration present;
   if (options.motion.empty()) {
     ros::init(argc, argv, "register_tracker");
-    ros_common::end_in_time([] { return !has_samples && ros::isShuttingDown(); }, EXIT_FAILURE);
+    ros_common::exit_after_timeout([] { return !has_samples && ros::isShuttingDown(); }, EXIT_FAILURE);
     samples = Listener().collect(options.pivot ? 1 : known.size());
     present = registration::read_registration(ros_common::private_parameters(ros::NodeHandle("tracker_driver")),
                                               "tracker_driver");

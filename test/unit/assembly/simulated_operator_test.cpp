@@ -195,7 +195,7 @@ TEST(OperatorHands, ThatReachTogetherKeepTheirDistance) {
   }
 }
 
-/// An interrupted reach continues from the present pose.
+/// An interrupted reach continues from the current pose.
 TEST(OperatorHands, DoNotLeapWhenAReachIsBroken) {
   const RigidTransform start = RigidTransform::Identity();
   OperatorHands hands({start}, still_hand());

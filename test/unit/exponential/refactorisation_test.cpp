@@ -69,7 +69,7 @@ TEST(Refactorisation, OfAnOscillationDependsOnItsCentre) {
 }
 
 /// Slow iterations are paid for by a new linear part once they have cost as much, unless the strain is still that of
-/// the present one, which would come out the same.
+/// the current one, which would come out the same.
 TEST(Refactorisation, IsDueWhenSlowIterationsHaveCostAsMuch) {
   const Strain mass(1.0, 1.0), away(1e-3, 0.0);
   for (const int iterations : {Rule::fast_iterations, Rule::fast_iterations + 1, 12}) {

@@ -212,7 +212,7 @@ TEST(Settings, ValidateRefusesWhatFilesMayNotContain) {
   });
 }
 
-/// A key from before the first release is reported with its present name.
+/// A key from before the first release is reported with its current name.
 TEST(Settings, ARenamedKeyIsReportedWithItsNewName) {
   for (const auto& [before, now] : validation::renamed()) {
     if (before.find('.') == std::string::npos) continue;  // a message's field

@@ -22,7 +22,7 @@ class DiagnosticStatusBuilder {
     status_.values.back().value = text.str();
     return *this;
   }
-  /// Raises the level (OK, WARN, ERROR, STALE) with a reason. A level below the present one changes nothing.
+  /// Raises the level (OK, WARN, ERROR, STALE) with a reason. A level below the current one changes nothing.
   DiagnosticStatusBuilder& raise(int8_t level, const std::string& reason);
   const diagnostic_msgs::DiagnosticStatus& status() const { return status_; }
 

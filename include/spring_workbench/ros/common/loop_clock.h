@@ -18,13 +18,13 @@ double steady_time();
 /// Local time for measuring intervals [s]: ROS time under `use_sim_time`, otherwise the steady clock.
 double loop_time();
 
-/// The present time by both clocks.
+/// The current time by both clocks.
 hand_input::LocalTime local_time();
 
-/// The present ROS time without the steps of the wall clock; under `use_sim_time`, simulated time.
+/// The current ROS time without the steps of the wall clock; under `use_sim_time`, simulated time.
 motion::WallMoment wall_moment();
 
-/// Converts a stamp of the simulation [ns], a time of wall_moment(), to the present clock. Returns the present time if
+/// Converts a stamp of the simulation [ns], a time of wall_moment(), to the current clock. Returns the current time if
 /// there is no stamp.
 ros::Time stamp_of(const std::optional<std::int64_t>& stamp);
 
@@ -38,7 +38,7 @@ void sleep_until_loop_time(double t);
 /// Wakes a sleeping thread.
 class Alarm {
  public:
-  /// Ends the present sleep or, if there is none, the next one immediately.
+  /// Ends the current sleep or, if there is none, the next one immediately.
   void ring();
   /// Like sleep_until_loop_time(), but returns early if another thread calls ring().
   void sleep_until(double t);

@@ -17,7 +17,7 @@ class SimulatedClock {
     ros::Time newest;  ///< newest stamp of this epoch; zero before the first message
   };
 
-  /// Returns the present time for a message of `stream` with this stamp, or nothing if the message was sent after a
+  /// Returns the current time for a message of `stream` with this stamp, or nothing if the message was sent after a
   /// jump that has not been made yet, so that it has to wait. After a jump of the clock, a message counts as sent
   /// before the jump if its stamp is later than the newest of its stream and within `max_age` [s] of the clock's last
   /// time before the jump.

@@ -13,17 +13,17 @@
 
 namespace spring_workbench::ros_common {
 
-/// Keeps work that may have to wait for the ROS master, so that nobody waits for it before the program exits. To be
+/// Keeps work that may have to wait for the ROS master, so that no caller waits for it before the program exits. To be
 /// called from one thread.
 void leave_until_exit(std::future<void> work);
 
-/// Runs work that may have to wait for the ROS master in the background, each after the one before, so that nobody
-/// waits for it before the program exits. To be called from one thread.
+/// Runs work that may have to wait for the ROS master in the background, each after the one before, so that no
+/// caller waits for it before the program exits. To be called from one thread.
 void run_in_order(std::function<void()> work);
 
-/// The subscribers of a part of a window, whose callbacks run in the thread that destroys it. None runs after `end` or
-/// the destructor. Nothing here waits for the ROS master: it is told in the background, in the order of the calls,
-/// since roscpp loses a subscriber to a topic whose last one is ending.
+/// The ROS subscribers of one component of a window. Their callbacks run in the thread that destroys this object; none
+/// runs after `end` or the destructor. Nothing here waits for the ROS master: subscriptions are made and ended in the
+/// background, in the order of the calls, because roscpp can lose a new subscriber to a topic whose last one is ending.
 class Subscriptions {
  public:
   Subscriptions() = default;

@@ -14,7 +14,7 @@
 namespace spring_workbench::tracker_driver {
 
 /// Default head pose: in front of and above the bench, x axis towards a point 0.1 m above its centre, y to the left.
-inline RigidTransform head_before_the_bench() {
+inline RigidTransform default_head_pose() {
   const Vector3d p(0.0, -0.85, 0.7), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
   Matrix3d R;
   R << x, y, x.cross(y);
@@ -39,8 +39,7 @@ struct TrackerParameters {
   std::optional<RigidTransform>
       X_BS_first;  ///< `start` (x y z qx qy qz qw): pose of a motion's first sample, instead of `offset`
   std::vector<int> head_stations;  ///< `head_stations`: FASTRAK stations worn on heads, 2 … 4; empty: a fixed head
-  RigidTransform X_BHead =
-      head_before_the_bench();  ///< `head` (pose); with head_stations in the frame of each receiver
+  RigidTransform X_BHead = default_head_pose();  ///< `head` (pose); with head_stations in the frame of each receiver
   double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
   double grasp_until =
       std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up; in addition to the file's button

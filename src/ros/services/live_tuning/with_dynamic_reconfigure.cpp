@@ -7,7 +7,7 @@
 namespace spring_workbench::services {
 namespace {
 
-/// Copies the present settings of the simulation, with those of the first hand's fork.
+/// Copies the current settings of the simulation, with those of the first hand's fork.
 void take_from(const simulation::Simulation& simulation, ManipulationConfig& config) {
   const rod::ForkSettings& fork = simulation.fork_settings();
   config.stretch = fork.dofs.stretch;

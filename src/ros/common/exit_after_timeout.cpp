@@ -1,4 +1,4 @@
-#include "spring_workbench/ros/common/end_in_time.h"
+#include "spring_workbench/ros/common/exit_after_timeout.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -11,9 +11,11 @@
 
 namespace spring_workbench::ros_common {
 
-void end_in_time(std::function<bool()> ends, int status) { end_in_time(std::move(ends), status, shutdown_timeout); }
+void exit_after_timeout(std::function<bool()> ends, int status) {
+  exit_after_timeout(std::move(ends), status, shutdown_timeout);
+}
 
-void end_in_time(std::function<bool()> ends, int status, double timeout) {
+void exit_after_timeout(std::function<bool()> ends, int status, double timeout) {
   std::thread([ends = std::move(ends), status, timeout] {
     while (!ends()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     std::this_thread::sleep_for(std::chrono::duration<double>(timeout));
