@@ -26,7 +26,7 @@ struct TipFit {
 
  private:
   void find_strain(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, const S* start);
-  /// Newton's method from the present `q`. Returns whether it converged as predicted by the derivative, inside the
+  /// Newton's method from the current `q`. Returns whether it converged as predicted by the derivative, inside the
   /// rod's range.
   bool follow_slope(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE);
 
