@@ -27,7 +27,7 @@ constexpr int outline_sides = 24;
 /// Number of colours in the column of the legend. Test: MarkersOfALift.LoadIsColouredAndWrittenInVirtualKilograms.
 constexpr int legend_steps = 16;
 /// Size of one colour in the column of the legend [m]. Test: none: appearance.
-constexpr double legend_edge = 0.014;
+constexpr double legend_edge = 0.018;
 /// Height of the letters next to the column [m]. If larger, labels of similar weights are omitted. Test:
 /// LoadScale.EveryWeightOfTheMiniWorldHasItsPosition.
 constexpr double legend_letters = 0.018;
