@@ -48,7 +48,7 @@ std::string printed(const char* format, double a, double b, double c = 0.0) {
 std::string printed(const tools::Reading& average, double scale, const char* unit) {
   if (!std::isfinite(average.uncertainty)) return "";
   const double mean = std::round(1e3 * average.mean / scale) / 1e3 + 0.0;  // not -0
-  return printed("\nmean %.3f +- %.3f ", mean, average.uncertainty / scale) + unit;
+  return printed("\nmean %.3f +/- %.3f ", mean, average.uncertainty / scale) + unit;
 }
 
 /// The further lines of the text: the readings of the tool. rviz can only draw ASCII.
@@ -56,7 +56,7 @@ std::string reading(const tools::ToolState& tool, double force_scale) {
   if (!tool.touched.empty()) {
     if (tool.material_stiffness <= 0.0) return "";
     if (std::isinf(tool.material_stiffness)) return "\nmaterial: rigid";
-    return printed("\nmaterial: %.3g +- %.1g N/m", tool.material_stiffness, tool.material_stiffness_uncertainty);
+    return printed("\nmaterial: %.3g +/- %.1g N/m", tool.material_stiffness, tool.material_stiffness_uncertainty);
   }
   const std::string weight = printed(tool.weight_average, 1.0, "vkg");
   const std::string torque = printed(tool.torque_average, force_scale, "N m");

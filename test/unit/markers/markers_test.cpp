@@ -218,13 +218,13 @@ TEST_F(MarkersOfALift, ReadingsAreWrittenBelowTheLoad) {
   tool.torque_average = {-0.0504, 0.001};
   tool.force_angle = M_PI / 6.0;
   tool.bending_force = 4.9;
-  EXPECT_EQ(below(), "mean 1.000 +- 0.002 vkg\nmean -0.050 +- 0.001 N m\n9.8 N along   4.9 N across   30 deg");
+  EXPECT_EQ(below(), "mean 1.000 +/- 0.002 vkg\nmean -0.050 +/- 0.001 N m\n9.8 N along   4.9 N across   30 deg");
   tool.held_object.clear();
   tool.touched = "box";
   EXPECT_EQ(below(), "");
   tool.material_stiffness = 1234.0;
   tool.material_stiffness_uncertainty = 20.0;
-  EXPECT_EQ(below(), "material: 1.23e+03 +- 2e+01 N/m");
+  EXPECT_EQ(below(), "material: 1.23e+03 +/- 2e+01 N/m");
   tool.material_stiffness = std::numeric_limits<double>::infinity();
   EXPECT_EQ(below(), "material: rigid");
 }
