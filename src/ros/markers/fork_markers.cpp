@@ -45,10 +45,12 @@ std::string printed(const char* format, double a, double b, double c = 0.0) {
   return text;
 }
 
+/// Rounds to a multiple of 1/`parts`; never to -0.
+double rounded(double x, double parts) { return std::round(parts * x) / parts + 0.0; }
+
 std::string printed(const tools::Reading& average, double scale, const char* unit) {
   if (!std::isfinite(average.uncertainty)) return "";
-  const double mean = std::round(1e3 * average.mean / scale) / 1e3 + 0.0;  // not -0
-  return printed("\nmean %.3f +/- %.3f ", mean, average.uncertainty / scale) + unit;
+  return printed("\nmean %.3f +/- %.3f ", rounded(average.mean / scale, 1e3), average.uncertainty / scale) + unit;
 }
 
 /// The further lines of the text: the readings of the tool. rviz can only draw ASCII.
@@ -62,7 +64,7 @@ std::string reading(const tools::ToolState& tool, double force_scale) {
   const std::string torque = printed(tool.torque_average, force_scale, "N m");
   constexpr double degree = M_PI / 180.0;
   return weight + torque +
-         printed("\n%.1f N along   %.1f N across   %.0f deg", tool.stretching_force / force_scale,
+         printed("\n%.1f N along   %.1f N across   %.0f deg", rounded(tool.stretching_force / force_scale, 10.0),
                  tool.bending_force / force_scale, tool.force_angle / degree);
 }
 

@@ -219,6 +219,8 @@ TEST_F(MarkersOfALift, ReadingsAreWrittenBelowTheLoad) {
   tool.force_angle = M_PI / 6.0;
   tool.bending_force = 4.9;
   EXPECT_EQ(below(), "mean 1.000 +/- 0.002 vkg\nmean -0.050 +/- 0.001 N m\n9.8 N along   4.9 N across   30 deg");
+  tool.stretching_force = -1e-9;  // a rounding error
+  EXPECT_NE(below().find("\n0.0 N along"), std::string::npos);
   tool.held_object.clear();
   tool.touched = "box";
   EXPECT_EQ(below(), "");
