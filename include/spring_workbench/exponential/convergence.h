@@ -20,7 +20,7 @@ class Convergence {
   void begin_step() {
     iterations_ = 0;
     squared_before_ = left_ = 0.0;
-    present_rate_ = std::min(1.0, rate_ * rate_growth);
+    rate_ = present_rate_ = std::min(1.0, rate_ * rate_growth);
     ended_ = converged_ = cancelled_ = false;
   }
   /// Takes the change by an iteration: its squared size at all nodes and at the end of the step, and that of the
@@ -67,7 +67,8 @@ class Convergence {
   /// An iteration with a higher number that leaves more than slow_rate of the last change ends the step.
   static constexpr int iterations_to_judge = 5;
   static constexpr double slow_rate = 0.7;
-  static constexpr double rate_growth = 1.3;      ///< assumed, from one step to the next
+  /// Assumed from one step to the next, until a step with two iterations tells: the rate is lowest at the linear part.
+  static constexpr double rate_growth = 1.3;
   static constexpr double left_at_unknown = 1e3;  ///< left() at an unknown rate, or without convergence
 
   static double left_at(double rate) { return rate < 1.0 ? rate / (1.0 - rate) : left_at_unknown; }
@@ -75,7 +76,7 @@ class Convergence {
     return squared_left_ <= std::max(fraction * fraction * squared_error_, squared_rounding_);
   }
 
-  double rate_ = 1.0;           ///< from the first to the second iteration of the last step that had two
+  double rate_ = 1.0;           ///< from the first to the second iteration; in a step with only one: assumed
   double squared_error_ = 0.0;  ///< collocation error of the last step
   // Of the present step.
   int iterations_ = 0;

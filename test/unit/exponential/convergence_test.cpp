@@ -56,6 +56,23 @@ TEST(Convergence, LeavesAFractionOfTheCollocationError) {
   EXPECT_GT(accepted, 5000);
 }
 
+/// A step after a new linear part converges much faster than those that follow, which need only one iteration: what is
+/// accepted is converged, although no step tells how the rate has grown.
+TEST(Convergence, DoesNotRelyOnTheRateOfAnOldStep) {
+  constexpr double rounding = 1e-13, start = 1e-9;
+  Convergence convergence;
+  convergence.restart();
+  int single = 0;
+  for (int step = 0; step < 60; ++step) {
+    const double rate = 1e-8 * std::pow(1.25, step);
+    const Iteration run(convergence, 0.0, rounding, 0.0, [&](int i) { return start * std::pow(rate, i - 1); });
+    EXPECT_TRUE(run.converged) << step;
+    EXPECT_LE(start * std::pow(rate, run.iterations) / (1.0 - rate), rounding) << step;
+    if (run.iterations == 1) ++single;
+  }
+  EXPECT_GT(single, 30);
+}
+
 /// In other units all decisions are the same.
 TEST(Convergence, DependsOnRatiosAlone) {
   std::mt19937 random(2);
