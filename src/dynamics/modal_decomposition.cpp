@@ -1,23 +1,14 @@
 #include "modal_decomposition.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
 
 #include "spring_workbench/exponential/real_modes.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
+#include "spring_workbench/math/symmetric_modes.h"
 
 namespace spring_workbench::dynamics {
 namespace {
-
-/// Eigenvectors of coupled modes that are worse conditioned belong to critical damping: the linear part then gets a
-/// slightly different damping, and the difference is left to the nonlinear residual.
-constexpr double max_condition = 1e5;
-constexpr int max_attempts = 6;
-
-using ModeMatrix = ModalDecomposition::ModeMatrix;
 
 /// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, which are exact for
 /// the springs.
@@ -63,37 +54,27 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
   // First the undamped modes of the springs: if their displacements are scaled by their frequencies, stiff and soft
   // modes can be combined without loss of digits.
   const HeldBody::Springs springs = body.springs(handle, q);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> undamped(springs.K, M);
-  const rod::StrainMatrix& shapes = undamped.eigenvectors();
+  const math::SymmetricModes undamped = math::symmetric_modes(springs.K, M);
+  const rod::StrainMatrix& shapes = undamped.vectors;
   const rod::StrainMatrix to_shapes = part.to_undamped = shapes.transpose() * M;
   // A free mode has only one eigenvector, and those of several free modes are arbitrary: the frozen part gets the
   // stiffness of 1, 2, … rad/s, and the nonlinear residual takes it back.
   const rod::StrainVector smallest = rod::StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
-  const rod::StrainVector scale = undamped.eigenvalues().cwiseMax(smallest).cwiseSqrt();
+  const rod::StrainVector scale = undamped.values.cwiseMax(smallest).cwiseSqrt();
   part.amplitude_rates =
       (scale.cwiseAbs2() + (shapes.transpose() * springs.D * shapes).diagonal().cwiseAbs2()).cwiseSqrt();
-  const rod::StrainVector missing = (smallest - undamped.eigenvalues()).cwiseMax(0.0);
+  const rod::StrainVector missing = (smallest - undamped.values).cwiseMax(0.0);
   part.stiffness += shapes * missing.asDiagonal() * to_shapes;
   const rod::StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
 
-  exponential::RealModes<ModeMatrix> modes;
-  double off_critical = 0.0;
-  for (int attempt = 0; attempt < max_attempts; ++attempt) {
-    part.damping = part.inverse_mass * springs.D;
-    for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
-    ModeMatrix A = ModeMatrix::Zero(count, count);
-    A.topRightCorner(n, n).diagonal() = scale;
-    A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
-    A.bottomRightCorner(n, n) = -(to_shapes * part.damping * shapes);
-    modes = exponential::RealModes<ModeMatrix>(A);
-    if (!(modes.condition > max_condition)) break;
-    off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
-  }
-  part.pairs = modes.pairs;
-  for (int i = 0; i < count; ++i) {
-    part.rates[static_cast<std::size_t>(i)] = modes.rates[i];
-    part.fastest = std::max(part.fastest, abs(modes.rates[i]));
-  }
+  part.damping = part.inverse_mass * springs.D;
+  ModalDecomposition::ModeMatrix A = ModalDecomposition::ModeMatrix::Zero(count, count);
+  A.topRightCorner(n, n).diagonal() = scale;
+  A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
+  A.bottomRightCorner(n, n) = -(to_shapes * part.damping * shapes);
+  const exponential::RealModes modes(A);
+  part.rates = modes.rates;
+  part.fastest = modes.rates.fastest();
 
   part.from_modes.resize(count, count);
   part.from_modes.topRows(n) = shapes * scale.cwiseInverse().asDiagonal() * modes.vectors.topRows(n);

@@ -1,17 +1,15 @@
 #pragma once
 
-#include <array>
-
 #include "spring_workbench/dynamics/held_body.h"
-#include "spring_workbench/exponential/general_complex.h"
+#include "spring_workbench/exponential/modal_rates.h"
 
 namespace spring_workbench::dynamics {
 
 /// The linear part of the equation of motion at rest about a strain, `q̈ = −stiffness q − damping q̇ + …`, and its modes:
-/// in `x = to_modes · (q, q̇)` it separates into single real modes, `ẋ = rate x`, and pairs (exponential::RealModes).
+/// in `x = to_modes · (q, q̇)` it is block-diagonal (exponential::RealModes).
 struct ModalDecomposition {
-  static constexpr int max_modes = 2 * rod::max_strain_coordinates;
-  using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_modes, max_modes>;
+  using ModeMatrix = exponential::ModalRates::Matrix;
+  static_assert(exponential::ModalRates::max_modes == 2 * rod::max_strain_coordinates);
 
   rod::StrainVector q_reference;
   rod::StrainMatrix stiffness, damping;  ///< M⁻¹ K, geometric stiffness of the loads included, and M⁻¹ D
@@ -24,14 +22,12 @@ struct ModalDecomposition {
   /// the handle's acceleration less gravity and its angular acceleration.
   Eigen::Matrix<double, Eigen::Dynamic, 6, 0, rod::max_strain_coordinates, 6> by_wrench, by_handle;
   ModeMatrix to_modes, from_modes;  ///< inverses of each other; not finite if the equation overflows and has no modes
-  /// The first 2 `pairs` modes form pairs of rates a + b j: ẋ₀ = a x₀ + b x₁, ẋ₁ = a x₁ + j² b x₀.
-  int pairs = 0;
-  std::array<exponential::GeneralComplex, max_modes> rates;  ///< [1/s]; that of a pair is listed twice
-  double fastest = 0.0;                                      ///< largest |rate|
+  exponential::ModalRates rates;    ///< [1/s]
+  double fastest = 0.0;             ///< largest |rate|
 
   void exchange(math::StateArchive& state) {
     state(q_reference, stiffness, damping, inverse_mass, mass, to_undamped, amplitude_rates, by_wrench, by_handle,
-          to_modes, from_modes, pairs, rates, fastest);
+          to_modes, from_modes, rates, fastest);
   }
 };
 

@@ -35,7 +35,7 @@ struct Collocation {
   /// coefficient of the third degree is Σ_k d_k / third_degree()[k].
   static const Row& third_degree();
 
-  /// Coefficients of one mode for a step, `Scalar` real or GeneralComplex.
+  /// Coefficients of one mode, pair or cluster for a step: `Scalar` is real, GeneralComplex or ClusterFunction.
   template <typename Scalar>
   struct Weights {
     using Column = std::array<Scalar, count>;
@@ -66,21 +66,17 @@ Collocation::Weights<Scalar> Collocation::weights(Scalar z) {
       for (std::size_t k = 0; k < count; ++k) values[j] += integral[k] * power()[k][j];
     }
   };
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    row(nodes[i], phi_functions<count>(Scalar(nodes[i] * z)), w.constant[i], w.node[i]);
-  }
-  const auto end = phi_functions<2 * count>(z);
-  row(1.0, end, w.constant[count - 1], w.node[count - 1]);
-  for (std::size_t k = 1; k < count; ++k) {
-    row(samples[k], phi_functions<count>(Scalar(samples[k] * z)), w.sample_constant[k], w.sample[k]);
-  }
   for (std::size_t i = 0; i < count; ++i) {
-    const auto phi = i + 1 < count ? phi_functions<2 * count>(Scalar(nodes[i] * z)) : end;
+    const auto phi = phi_functions<2 * count>(Scalar(nodes[i] * z));
+    row(nodes[i], phi, w.constant[i], w.node[i]);
     double factor = nodes[i];
     for (std::size_t m = 0; m < 2 * count; ++m) {
-      for (std::size_t k = 0; k < count; ++k) w.defect[i][k] += factor * defect_power()[k][m] * phi[m + 1];
+      for (std::size_t k = 0; k < count; ++k) w.defect[i][k] += (factor * defect_power()[k][m]) * phi[m + 1];
       factor *= nodes[i] * static_cast<double>(m + 1);
     }
+  }
+  for (std::size_t k = 1; k < count; ++k) {
+    row(samples[k], phi_functions<count>(Scalar(samples[k] * z)), w.sample_constant[k], w.sample[k]);
   }
   return w;
 }

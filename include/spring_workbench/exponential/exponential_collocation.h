@@ -42,7 +42,7 @@ class ExponentialCollocation {
     known_ = true;
     ++revision_;
     norm_.set(h_, modes().rates);
-    operators_.compute(h_, modes().rates, modes().pairs);
+    operators_.compute(h_, modes().rates);
   }
   /// Changes whenever the operators do; what has been derived from them is valid for one value.
   long revision() const { return revision_; }
@@ -58,10 +58,8 @@ class ExponentialCollocation {
   /// Modes at the nodes, and at the samples, for the rate q̇₀ alone.
   SPRING_WORKBENCH_INLINE void begin(const Strain& q_dot, NodeModes& nodes, NodeModes& samples) const {
     const Modes rate = part_.rate_in_modes(q_dot);
-    for (int m = 0; m < 2 * n; ++m) {
-      nodes[at(m)] = operators_.constant.apply(m, rate);
-      samples[at(m)] = operators_.sample_constant.apply(m, rate);
-    }
+    nodes = operators_.constant.applied(rate);
+    samples = operators_.sample_constant.applied(rate);
   }
   /// Modes at the nodes under the collocation polynomial of a residual, in modes; `from` begin().
   SPRING_WORKBENCH_INLINE void drive(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
@@ -74,8 +72,9 @@ class ExponentialCollocation {
 
   /// Effect of a defect of the residual at the samples, in modes, on the modes at the end.
   SPRING_WORKBENCH_INLINE Modes end_effect(const NodeModes& defect) const {
+    const NodeModes by_samples = operators_.end_defect.applied(defect);
     Modes e;
-    for (int m = 0; m < 2 * n; ++m) e[m] = math::sum(operators_.end_defect.apply(m, defect));
+    for (int m = 0; m < 2 * n; ++m) e[m] = math::sum(by_samples[at(m)]);
     return e;
   }
   /// The same on the modes at the nodes.
@@ -89,23 +88,15 @@ class ExponentialCollocation {
   SPRING_WORKBENCH_INLINE NodeModes effect_of_highest_degree(const NodeModes& defect) const {
     const auto& row = Collocation::third_degree();
     const math::Pack third{row[0], row[1], row[2], row[3]};
-    NodeModes alone, e;
+    NodeModes alone;
     for (int m = 0; m < 2 * n; ++m) alone[at(m)] = math::sum(defect[at(m)] / third) * third;
-    for (int m = 0; m < 2 * n; ++m) e[at(m)] = operators_.end_defect.apply(m, alone);
-    return e;
+    return operators_.end_defect.applied(alone);
   }
 
   /// Carries a small deviation of strain and rate, in modes, from the start to the nodes along the linear part.
   SPRING_WORKBENCH_INLINE NodeModes carried_in_modes(const Modes& x) const {  // e^{hλ} = 1 + λ h φ₁(hλ)
-    Modes rate;
-    for (int m = 0; m < 2 * n; ++m) {
-      const GeneralComplex& z = modes().rates[at(m)];
-      rate[m] = z.re * x[m] + (m % 2 == 0 ? 1.0 : z.square) * z.im * x[m ^ 1];
-    }
-    NodeModes y;
-    for (int m = 0; m < 2 * n; ++m) {
-      y[at(m)] = x[m] + operators_.constant.own[at(m)] * rate[m] + operators_.constant.other[at(m)] * rate[m ^ 1];
-    }
+    NodeModes y = operators_.constant.applied(modes().rates.applied(x));
+    for (int m = 0; m < 2 * n; ++m) y[at(m)] += x[m];
     return y;
   }
   /// The same of strain and rate, to the end.
@@ -116,11 +107,7 @@ class ExponentialCollocation {
   Eigen::Matrix<double, 2 * n, n> response(const Square& acceleration) const {
     const Eigen::Matrix<double, 2 * n, n> force = part_.in_modes(acceleration);
     Eigen::Matrix<double, 2 * n, n> x;
-    constexpr std::size_t end = Collocation::count - 1;
-    for (int m = 0; m < 2 * n; ++m) {
-      x.row(m) =
-          operators_.constant.own[at(m)][end] * force.row(m) + operators_.constant.other[at(m)][end] * force.row(m ^ 1);
-    }
+    for (int i = 0; i < n; ++i) x.col(i) = at_end(operators_.constant.applied(Modes(force.col(i))));
     return part_.deviation(x);
   }
 

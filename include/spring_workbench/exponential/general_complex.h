@@ -38,6 +38,10 @@ struct GeneralComplex {
     return {over * re, -over * im, z.square};
   }
 
+  friend bool operator==(const GeneralComplex& a, const GeneralComplex& b) {
+    return a.re == b.re && a.im == b.im && a.square == b.square;
+  }
+
   /// Square of the larger absolute value of the eigenvalues.
   friend double norm(const GeneralComplex& z) {
     if (z.square < 0.0) return z.re * z.re - z.square * z.im * z.im;

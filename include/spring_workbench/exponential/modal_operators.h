@@ -2,32 +2,43 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "spring_workbench/exponential/cluster_functions.h"
+#include "spring_workbench/exponential/cluster_operator.h"
 #include "spring_workbench/exponential/collocation.h"
-#include "spring_workbench/exponential/general_complex.h"
 
 namespace spring_workbench::exponential {
 
-/// Four functions of a linear part, one in each lane, in the coordinates of its modes: a number for a single mode, a
-/// 2 × 2 block for a pair (RealModes), so that x ↦ own x + other x', where x' is x with the members of each pair
-/// exchanged.
+/// Four functions of a linear part, one in each lane, in the coordinates of its modes (ModalRates): a number for a
+/// single mode, a 2 × 2 block for a pair, so that x ↦ own x + other x', where x' is x with the members of each pair
+/// exchanged, and a matrix for clusters.
 template <int modes>
 struct ModalOperator {
   using Packs = std::array<math::Pack, static_cast<std::size_t>(modes)>;
   static constexpr std::size_t at(int m) { return static_cast<std::size_t>(m); }
 
-  Packs own{}, other{};
+  Packs own{}, other{};  ///< zero for the modes of clusters
+  ClusterOperator clusters;
 
-  /// Row `m` of the functions, applied to modes that are the same for all lanes.
+  /// The functions, each applied to its lane of `x`, or all to the same modes.
   template <typename Modes>
-  SPRING_WORKBENCH_INLINE math::Pack apply(int m, const Modes& x) const {
-    return own[at(m)] * x[m] + other[at(m)] * x[m ^ 1];
+  SPRING_WORKBENCH_INLINE Packs applied(const Modes& x) const {
+    Packs y;
+    for (int m = 0; m < modes; ++m) {
+      const auto i = static_cast<decltype(x.size())>(m);
+      y[at(m)] = own[at(m)] * x[i] + other[at(m)] * x[i ^ 1];
+    }
+    if (clusters.size() > 0) add_clusters(x, y);
+    return y;
   }
-  /// The same applied to modes of their own in each lane.
-  SPRING_WORKBENCH_INLINE math::Pack apply(int m, const Packs& x) const {
-    return own[at(m)] * x[at(m)] + other[at(m)] * x[at(m ^ 1)];
+  template <typename Modes>
+  SPRING_WORKBENCH_INLINE void add_clusters(const Modes& x, Packs& y) const {
+    Packs in_lanes;
+    for (int m = 0; m < modes; ++m) in_lanes[at(m)] = x[static_cast<decltype(x.size())>(m)] + math::Pack{};
+    const std::size_t first = at(modes - clusters.size());
+    clusters.add_applied(&in_lanes[first], &y[first]);
   }
+
   void set(std::size_t lane, int m, double value) {
     own[at(m)][lane] = value;
     other[at(m)][lane] = 0.0;
@@ -36,6 +47,9 @@ struct ModalOperator {
     own[at(m)][lane] = own[at(m + 1)][lane] = value.re;
     other[at(m)][lane] = value.im;
     other[at(m + 1)][lane] = value.square * value.im;
+  }
+  void set(std::size_t lane, int m, const ClusterFunction& value) {
+    clusters.set(lane, m - (modes - clusters.size()), value.matrix);
   }
 };
 
@@ -53,11 +67,23 @@ struct ModalOperators {
   PerNode defect;                      ///< of the residual's defect at each sample, at the nodes
   Operator end_defect;                 ///< of the defect at the sample of each lane, at the end
 
-  /// Computes all for steps of `h` [s] and the first `modes` of `rates` [1/s], of which 2 `pairs` form pairs.
-  template <typename Rates>
-  void compute(double h, const Rates& rates, int pairs) {
-    for (int m = 0; m < 2 * pairs; m += 2) set(h, m, Collocation::weights(h * rates[Operator::at(m)]));
-    for (int m = 2 * pairs; m < modes; ++m) set(h, m, Collocation::weights(h * rates[Operator::at(m)].re));
+  /// Computes all for steps of `h` [s], unless they are known: a restored history mostly goes on with the same.
+  void compute(double h, const ModalRates& rates) {
+    if (h == h_ && rates == rates_) return;
+    h_ = h;
+    rates_ = rates;
+    for (int m = 0; m < 2 * rates.pairs; m += 2) set(h, m, Collocation::weights(h * rates.of[Operator::at(m)]));
+    for (int m = 2 * rates.pairs; m < rates.unclustered(); ++m) {
+      set(h, m, Collocation::weights(h * rates.of[Operator::at(m)].re));
+    }
+    const int first = rates.unclustered();
+    each([&](Operator& f) { f.clusters.set_zero(modes - first); });
+    for (int m = first; m < modes; ++m) set(h, m, Collocation::Weights<double>{});
+    int m = first;
+    for (const int size : rates.cluster_sizes) {
+      if (size > 0) set(h, m, cluster_weights(h * rates.clusters.block(m - first, m - first, size, size)));
+      m += size;
+    }
   }
 
   /// x = from + Σ_j by[j] residual_j, where residual_j is lane j of the residual.
@@ -70,9 +96,22 @@ struct ModalOperators {
       }
       x[Operator::at(m)] = sum;
     }
+    if (by[0].clusters.size() == 0) return;
+    for (std::size_t j = 0; j < count; ++j) {
+      std::array<double, static_cast<std::size_t>(modes)> at_node;
+      for (std::size_t i = 0; i < at_node.size(); ++i) at_node[i] = residual[i][j];
+      by[j].add_clusters(at_node, x);
+    }
   }
 
  private:
+  template <typename Visit>
+  void each(const Visit& visit) {
+    for (Operator* f : {&constant, &sample_constant, &end_defect}) visit(*f);
+    for (PerNode* all : {&node, &sample, &defect}) {
+      for (Operator& f : *all) visit(f);
+    }
+  }
   template <typename Weights>
   void set(double h, int m, const Weights& w) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -86,6 +125,9 @@ struct ModalOperators {
       }
     }
   }
+
+  double h_ = 0.0;
+  ModalRates rates_;
 };
 
 }  // namespace spring_workbench::exponential

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "spring_workbench/exponential/general_complex.h"
-#include "spring_workbench/math/pack.h"
+#include "spring_workbench/exponential/modal_rates.h"
 
 namespace spring_workbench::exponential {
 
@@ -15,11 +14,10 @@ class ModeNorm {
  public:
   using Modes = Eigen::Matrix<double, count, 1>;
 
-  /// For steps of `h` [s] and the first `count` of `rates` [1/s].
-  template <typename Rates>
-  void set(double h, const Rates& rates) {
+  /// For steps of `h` [s].
+  void set(double h, const ModalRates& rates) {
     for (int m = 0; m < count; ++m) {
-      const double weight = 1.0 / std::max(1.0 / h, abs(rates[static_cast<std::size_t>(m)]));
+      const double weight = 1.0 / std::max(1.0 / h, rates.size(m));
       squared_weight_[m] = weight * weight;
     }
   }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <map>
 #include <random>
@@ -183,6 +184,51 @@ TEST(Exponential, IsExactInOneCoordinateHoweverCloseToCriticalDamping) {
       const StrainState end = carried(*integrator, c, 0.0, duration / steps, steps, held.zero_state());
       EXPECT_NEAR(end.q[0], static_cast<double>(exact[0]), 2e-13 * size) << off << " " << omega << " " << steps;
       EXPECT_NEAR(end.q_dot[0], static_cast<double>(exact[1]), 2e-13 * size * omega) << off << " " << steps;
+    }
+  }
+}
+
+/// How many modes of the held body at zero strain oscillate.
+Eigen::Index oscillating(const HeldBody& held) {
+  const Eigen::Index n = held.size();
+  const Eigen::LLT<Eigen::MatrixXd> M(Eigen::MatrixXd(held.mass_matrix(0.0, rod::StrainVector::Zero(n))));
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).setIdentity();
+  A.bottomLeftCorner(n, n) = -M.solve(Eigen::MatrixXd(held.stiffness().asDiagonal()));
+  A.bottomRightCorner(n, n) = -M.solve(Eigen::MatrixXd(held.damping()));
+  return (A.eigenvalues().imag().array() > 0.0).count();
+}
+
+/// Of several coordinates that dampers of their own couple, too, at the damping where a coupled mode ceases to
+/// oscillate and at relative distances from it of 1e-12 to 0.1: the error falls with the step down to rounding.
+TEST(Exponential, HasNoFloorHoweverCloseToCriticalDampingOfACoupledMode) {
+  constexpr double duration = 0.2;
+  for (const char* shape : {"bushing", "linear"}) {
+    for (const unsigned seed : {1u, 2u}) {
+      const auto at_ratio = [&](double zeta) {
+        std::mt19937 random(seed);
+        return random_case(shape, zeta, duration, random);
+      };
+      double below = 0.3, above = 3.0;
+      const Eigen::Index all = oscillating(at_ratio(below).held);
+      ASSERT_LT(oscillating(at_ratio(above).held), all);
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (below + above);
+        (oscillating(at_ratio(middle).held) == all ? below : above) = middle;
+      }
+      for (const double apart : {0.0, 1e-12, -1e-12, 1e-8, -1e-8, 1e-4, -1e-4, 0.1, -0.1}) {
+        const Case c = at_ratio(below * (1.0 + apart));
+        const auto end = [&](const char* integrator, int steps) {
+          return carried(*test_support::make_integrator(integrator), c, 0.0, duration / steps, steps,
+                         c.held.zero_state());
+        };
+        const StrainState coarse = end("rk4", 4096), fine = end("rk4", 8192);
+        const StrainState exact{fine.q + (fine.q - coarse.q) / 15.0, fine.q_dot};
+        const double coarse_error = distance(c, duration, end("exponential", 40), exact),
+                     fine_error = distance(c, duration, end("exponential", 1280), exact);
+        EXPECT_LT(coarse_error, 1e-8) << shape << " " << seed << " " << apart;
+        EXPECT_LT(fine_error, 1e-12) << shape << " " << seed << " " << apart;
+      }
     }
   }
 }

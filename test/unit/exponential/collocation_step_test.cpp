@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "spring_workbench/exponential/real_modes.h"
 #include "support/matrix_exponential.h"
@@ -20,8 +21,7 @@ struct Decomposition {
   using Matrix1 = Eigen::Matrix<double, 1, 1>;
   Matrix1 stiffness = Matrix1::Zero(), damping = Matrix1::Zero();
   Eigen::Matrix2d to_modes = Eigen::Matrix2d::Zero(), from_modes = Eigen::Matrix2d::Zero();
-  std::array<GeneralComplex, 2> rates;
-  int pairs = 0;
+  ModalRates rates;
 
   Decomposition() = default;
   Decomposition(double k, double d) {
@@ -29,13 +29,12 @@ struct Decomposition {
     damping(0, 0) = d;
     Eigen::Matrix2d A;
     A << 0.0, 1.0, -k, -d;
-    const RealModes<Eigen::Matrix2d> modes(A);
+    const RealModes modes(A);
     from_modes = modes.vectors;
     to_modes = modes.inverse;
-    rates = {modes.rates[0], modes.rates[1]};
-    pairs = modes.pairs;
+    rates = modes.rates;
   }
-  void exchange(math::StateArchive& state) { state(stiffness, damping, to_modes, from_modes, rates, pairs); }
+  void exchange(math::StateArchive& state) { state(stiffness, damping, to_modes, from_modes, rates); }
 };
 
 /// A pendulum under a force along its path: θ̈ = −ω² s(θ) − d θ̇ + force(t), s = sin, or the identity if it is linear.
@@ -103,6 +102,119 @@ TEST(CollocationStep, IsExactForALinearEquationUnderACubic) {
     EXPECT_LT((end - exact).norm(), 1e-14 * count + 4e-15) << count;
   }
 }
+
+/// The linear equation q̈ = −S q − D q̇ + force(t) of three coordinates.
+struct Coupled {
+  using Square = Eigen::Matrix3d;
+  struct ModalDecomposition {
+    Square stiffness = Square::Zero(), damping = Square::Zero();
+    Eigen::Matrix<double, 6, 6> to_modes, from_modes;
+    ModalRates rates;
+    void exchange(math::StateArchive& state) { state(stiffness, damping, to_modes, from_modes, rates); }
+  };
+  using Input = double (*)(double t);
+  using Forcing = math::Pack;
+  using Strain = Eigen::Vector3d;
+  using NodeStrains = std::array<math::Pack, 3>;
+  Square S, D;
+
+  Eigen::Matrix<double, 6, 6> matrix() const {
+    Eigen::Matrix<double, 6, 6> A;
+    A << Square::Zero(), Square::Identity(), -S, -D;
+    return A;
+  }
+  ModalDecomposition decomposition() const {
+    const RealModes modes(matrix());
+    return {S, D, modes.inverse, modes.vectors, modes.rates};
+  }
+  math::Pack forcing(Input force, const math::Pack& t) const {
+    return math::Pack{force(t[0]), force(t[1]), force(t[2]), force(t[3])};
+  }
+  void acceleration(const math::Pack& force, const math::Pack* q, const math::Pack* q_dot, math::Pack* q_ddot) const {
+    for (int i = 0; i < 3; ++i) {
+      q_ddot[i] = force;
+      for (int j = 0; j < 3; ++j) q_ddot[i] -= S(i, j) * q[j] + D(i, j) * q_dot[j];
+    }
+  }
+  Strain acceleration(Input force, double t, const Strain& q, const Strain& q_dot) const {
+    return Strain::Constant(force(t)) - S * q - D * q_dot;
+  }
+  NodeStrains by_forcing(const math::Pack& force, const ModalDecomposition&) const { return {force, force, force}; }
+  double squared_rounding(const math::Pack&, const ModalDecomposition&, double h, const Strain& q,
+                          const Strain& q_dot) const {
+    return q.squaredNorm() + h * h * q_dot.squaredNorm();
+  }
+  template <typename Part>
+  Strain cancelling(const Part&, const Strain& q, const Strain& q_dot) const {
+    return S.cwiseAbs() * q.cwiseAbs() + D.cwiseAbs() * q_dot.cwiseAbs();
+  }
+};
+
+/// Three coupled oscillators at relative distances of 1e-12 to 0.1 from critical damping, on both sides of it. The
+/// rates of `alike` ones cannot be separated; the others form pairs.
+Coupled near_critical(bool alike, double apart) {
+  Eigen::Matrix3d mixed;
+  mixed << 1.0, 0.3, -0.2, 0.1, 1.2, 0.4, -0.3, 0.2, 0.9;
+  const Eigen::Vector3d rates = alike ? Eigen::Vector3d::Constant(omega) : Eigen::Vector3d(omega, 7.0, 11.0);
+  Coupled equation;
+  equation.S = rates.cwiseAbs2().asDiagonal();
+  equation.S(1, 0) = equation.S(2, 1) = 2.0;
+  equation.S = mixed * equation.S * mixed.inverse();
+  equation.D = mixed * (2.0 * (1.0 + apart) * rates).asDiagonal() * mixed.inverse();
+  return equation;
+}
+
+class NearCritical : public testing::TestWithParam<std::tuple<bool, double>> {
+ protected:
+  const Coupled equation = near_critical(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  const Coupled::ModalDecomposition part = equation.decomposition();
+  CollocationStep<3, Coupled> steps;
+  static constexpr double duration = 0.8;
+};
+
+/// So the solution is continuous where oscillation begins.
+TEST_P(NearCritical, CoupledOscillatorsUnderACubicAreExact) {
+  test_support::LongMatrix A = test_support::LongMatrix::Zero(10, 10);  // of q, q̇, and 1, t, t², t³
+  A.topLeftCorner(6, 6) = equation.matrix().cast<long double>();
+  for (int i = 3; i < 6; ++i) A.row(i).tail(4) << 1.0L, 2.0L, -3.0L, 1.0L;
+  for (int k = 1; k < 4; ++k) A(6 + k, 5 + k) = k;
+  Eigen::Matrix<long double, 10, 1> begin;
+  begin << 0.3L, -0.1L, 0.2L, -0.2L, 0.5L, 0.0L, 1.0L, 0.0L, 0.0L, 0.0L;
+  const Eigen::Matrix<double, 10, 1> exact =
+      (test_support::exponential(A * static_cast<long double>(duration)) * begin).cast<double>();
+  for (const int count : {1, 7, 100}) {
+    steps.set(part);
+    Eigen::Vector3d q = begin.head<3>().cast<double>(), q_dot = begin.segment<3>(3).cast<double>();
+    const double h = duration / count;
+    for (int i = 0; i < count; ++i) EXPECT_TRUE(steps.step(equation, cubic, i * h, h, q, q_dot).solved) << i;
+    EXPECT_LT((q - exact.head<3>()).norm(), 1e-13) << count;
+    EXPECT_LT((q_dot - exact.segment<3>(3)).norm(), 1e-12) << count;
+  }
+}
+
+TEST_P(NearCritical, CoupledOscillatorsRespondAndCarryDeviationsExactly) {
+  steps.set(part);
+  steps.prepare(duration);
+  const Eigen::MatrixXd to_end =
+      test_support::exponential(equation.matrix().cast<long double>() * static_cast<long double>(duration))
+          .cast<double>();
+  const Eigen::MatrixXd response =
+      (equation.matrix().inverse() * (to_end - Eigen::MatrixXd::Identity(6, 6))).rightCols(3);
+  EXPECT_LT((steps.propagator().response(Eigen::Matrix3d::Identity()) - response).norm(), 1e-13);
+  for (int i = 0; i < 6; ++i) {
+    const Eigen::Matrix<double, 6, 1> one = Eigen::Matrix<double, 6, 1>::Unit(i);
+    EXPECT_LT((steps.propagator().carried(one) - to_end.col(i)).norm(), 1e-12) << i;
+  }
+}
+
+TEST_P(NearCritical, OscillatorsFormAClusterOnlyIfTheyAreAlike) {
+  const auto [alike, apart] = GetParam();
+  EXPECT_EQ(part.rates.clusters.rows(), alike ? 6 : 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(CollocationStep, NearCritical,
+                         testing::Combine(testing::Bool(), testing::Values(0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6,
+                                                                           1e-4, -1e-4, 1e-2, -1e-2, 0.1, -0.1)));
 
 /// Whatever part of the equation is frozen as its linear part, the order is seven, and the solution the same.
 TEST(CollocationStep, HasOrderSevenWithAnyLinearPart) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "spring_workbench/exponential/modal_rates.h"
+
+namespace spring_workbench::exponential {
+
+/// Four functions of the clusters of ModalRates, one in each lane, as a matrix.
+class ClusterOperator {
+ public:
+  /// Of all clustered modes; 0, as in most motions: there are none.
+  int size() const { return size_; }
+  void set_zero(int size);
+  /// Sets a block that begins at element (`first`, `first`); `block` may be empty, which is zero.
+  void set(std::size_t lane, int first, const ModalRates::Matrix& block);
+  /// Adds the functions, each applied to its lane of `x`, to `y`.
+  void add_applied(const math::Pack* x, math::Pack* y) const;
+
+ private:
+  int size_ = 0;
+  std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)> rows_;
+};
+
+}  // namespace spring_workbench::exponential
