@@ -132,12 +132,9 @@ void Exponential::follow(const HeldBody& body, RunError& error) {
 void Exponential::exchange(math::StateArchive& state) {
   int n = n_;
   state(n);
-  if (n == 0) {
-    core_.reset();
-    n_ = 0;
-  } else {
-    core(n).exchange(state);
-  }
+  if (n > 0) return core(n).exchange(state);
+  core_.reset();
+  n_ = 0;
 }
 
 Integrator::Response Exponential::response(const HeldBody& body, const HandleForcing& handle, double h,

@@ -33,6 +33,7 @@ class Exponential final : public Integrator {
   void follow(const HeldBody& body, RunError& error) override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
   void exchange(math::StateArchive& state) override;
+  bool restores_all() const override { return true; }
 
  private:
   class Core;  ///< for one number of coordinates

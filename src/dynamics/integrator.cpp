@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <typeinfo>
 #include <utility>
 
 #include "exponential.h"
@@ -45,6 +46,11 @@ const std::vector<std::string>& names_of(Inertia) {
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind) {
   return known().makers.at(static_cast<std::size_t>(kind))();
+}
+
+void swap_alike(std::unique_ptr<Integrator>& a, std::unique_ptr<Integrator>& b) {
+  const Integrator &of_a = *a, &of_b = *b;
+  if (typeid(of_a) == typeid(of_b) && of_a.restores_all()) a.swap(b);
 }
 
 IntegratorKind register_integrator(const std::string& name, MakeIntegrator make) {

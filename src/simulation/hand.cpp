@@ -260,7 +260,7 @@ void Hand::exchange(math::StateArchive& state, double now) {
   if (state.sets()) {
     if (grasp_.object >= std::max<std::size_t>(objects_.states().size(), 1))
       throw std::out_of_range("the tool holds an unknown object");
-    hold_ = holds ? maker().make(grasp_, grasped_body(), now) : nullptr;
+    hold_ = holds ? maker().make(grasp_, grasped_body(), now, hold_.get()) : nullptr;
     const scene::Body* body = touched < scene_.bodies.size() ? &scene_.bodies[touched] : nullptr;
     const tools::AxisHit front{0.0, body, body != nullptr ? &body->material : &scene_.bench_material};
     probe_ = touches ? std::make_unique<tools::Probe>(fork_.length, fork_, front, now) : nullptr;

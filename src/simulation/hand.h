@@ -74,7 +74,7 @@ class Hand {
   void change_fork(const ForkChange& change, ChangeReport& report);
   /// Adopts the changed integrator, step and tolerance of the settings.
   void change_integrator() {
-    if (hold_) hold_->set_step_control(settings_.dynamics);
+    if (hold_) hold_->step_control() = stepping::make_step_control(settings_.dynamics);
   }
   /// Sets length, springs and dampers to fit the held object. Returns false if no tool with springs holds one.
   bool calibrate(ChangeReport& change, double now);

@@ -5,7 +5,6 @@
 
 #include "fork_coupling.h"
 #include "spring_workbench/stepping/load_response.h"
-#include "spring_workbench/stepping/step_control.h"
 #include "spring_workbench/tools/tool_hold.h"
 
 namespace spring_workbench::tools {
@@ -52,8 +51,7 @@ class ForkBody : public ToolHold {
   void set_springs(const rod::ForkSettings& fork) override { held_.set_springs(fork); }
   rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const override;
   bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) override;
-  void set_step_control(const dynamics::DynamicsSettings& settings) override { control_ = make_step_control(settings); }
-  static stepping::StepControl make_step_control(const dynamics::DynamicsSettings& settings);
+  stepping::StepControl& step_control() override { return control_; }
   int coordinates() const override { return held_.size(); }
   double length() const override { return held_.shape().length(); }
   double elastic_energy() const override;

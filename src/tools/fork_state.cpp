@@ -16,11 +16,6 @@ bool ForkBody::set_dofs(const rod::ForkDofs& dofs, double switch_off_time) {
   return held_.returning();
 }
 
-stepping::StepControl ForkBody::make_step_control(const dynamics::DynamicsSettings& settings) {
-  return stepping::StepControl(dynamics::make_integrator(settings.integrator), settings.tolerance,
-                               settings.error_bound);
-}
-
 double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, state_.strain); }
 
 Wrench ForkBody::rod_load(const motion::MotionState& o) const {

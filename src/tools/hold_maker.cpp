@@ -33,7 +33,8 @@ dynamics::BodyInertia HoldMaker::inertia(const Grasp& grasp, const GraspedBody& 
   return inertia;
 }
 
-std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const GraspedBody& object, double now) const {
+std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const GraspedBody& object,
+                                               stepping::StepControl control, double now) const {
   // Rigid tools are as short as possible, so that the motion of their object does not depend on a length.
   const auto shape = grasp.tool == Tool::spring_fork
                          ? rod::make_shape_model(fork_.shape, grasp.length, fork_.slope_stiffness)
@@ -45,19 +46,22 @@ std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const Grasped
   held.set_dofs(possible_dofs(grasp, object), now, fork_.switch_off_time, zero);
   RigidTransform X_SH = RigidTransform::Identity();
   X_SH.translation().z() = grasp.reach - grasp.length;
-  return std::make_unique<ForkBody>(object.index, std::move(held), ForkBody::make_step_control(dynamics_), now, X_SH);
+  return std::make_unique<ForkBody>(object.index, std::move(held), std::move(control), now, X_SH);
 }
 
-std::unique_ptr<ToolHold> HoldMaker::make(const Grasp& grasp, const GraspedBody& object, double now) const {
-  if (grasp.tool != Tool::spring || object.massless()) return make_fork(grasp, object, now);
+std::unique_ptr<ToolHold> HoldMaker::make(const Grasp& grasp, const GraspedBody& object, double now,
+                                          ToolHold* before) const {
+  stepping::StepControl control = stepping::make_step_control(dynamics_);
+  if (before != nullptr) control.swap_integrator(before->step_control());
+  if (grasp.tool != Tool::spring || object.massless()) return make_fork(grasp, object, std::move(control), now);
   const double rest_length = std::max((object.X_WO.translation() - grasp.X_WS.translation()).norm(), min_rest_length);
-  return std::make_unique<SpringBody>(object.index, object.body, gravity_, object.X_WO,
-                                      ForkBody::make_step_control(dynamics_), now, rest_length, fork_);
+  return std::make_unique<SpringBody>(object.index, object.body, gravity_, object.X_WO, std::move(control), now,
+                                      rest_length, fork_);
 }
 
 std::unique_ptr<ToolHold> HoldMaker::make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const {
   auto body = std::make_unique<ForkBody>(object.index, unheld(object.body, gravity_),
-                                         ForkBody::make_step_control(dynamics_), now, RigidTransform::Identity());
+                                         stepping::make_step_control(dynamics_), now, RigidTransform::Identity());
   body->set_hand(frame_at_rest(object.X_WO), now);
   body->take_twist(V_WO_W);
   return body;

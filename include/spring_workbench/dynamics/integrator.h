@@ -73,9 +73,14 @@ class Integrator {
 
   /// Saves or restores the history: all that it keeps of the equations and the last step.
   virtual void exchange(math::StateArchive&) {}
+  /// Whether a restored history replaces any other, so that one integrator may be used for several runs in turn.
+  virtual bool restores_all() const { return false; }
 };
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind);
+
+/// Swaps two integrators if both are of one class that restores all, so that either can go on as the other.
+void swap_alike(std::unique_ptr<Integrator>& a, std::unique_ptr<Integrator>& b);
 
 /// Registers an integrator of your own under `name`: from then on settings files, parameters, services and
 /// DynamicsSettings accept it like a built-in one. `make` is called for each object that is grasped, and again when the

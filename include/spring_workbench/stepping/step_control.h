@@ -85,7 +85,8 @@ class StepControl {
   /// `tolerance` [m]: 0 takes spans as they come; up to largest_tolerance.
   explicit StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance = 0.0,
                        bool error_bound = false);
-
+  /// Before a history is restored: swaps the integrators if they are alike, so that what `other` has derived is kept.
+  void swap_integrator(StepControl& other) { dynamics::swap_alike(integrator_, other.integrator_); }
   dynamics::Integrator& integrator() const { return *integrator_; }
   double tolerance() const { return tolerance_; }  ///< [m]
 
@@ -120,5 +121,10 @@ class StepControl {
   bool error_bound_;
   std::unique_ptr<dynamics::Integrator> companion_;  ///< follows the error where the integrator does not
 };
+
+/// Of the integrator and the tolerance of the settings.
+inline StepControl make_step_control(const dynamics::DynamicsSettings& s) {
+  return StepControl(dynamics::make_integrator(s.integrator), s.tolerance, s.error_bound);
+}
 
 }  // namespace spring_workbench::stepping

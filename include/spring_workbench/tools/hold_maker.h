@@ -38,8 +38,10 @@ class HoldMaker {
   HoldMaker(const rod::ForkSettings& fork, const dynamics::DynamicsSettings& dynamics, double gravity)
       : fork_(fork), dynamics_(dynamics), gravity_(gravity) {}
 
-  /// Makes a hold without strain, at time `now` [s]. Set the hand's motion before using it.
-  std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
+  /// Makes a hold without strain, at time `now` [s]. Set the hand's motion before using it, or restore a state; then
+  /// `before` may be the hold that it replaces, whose integrator goes on.
+  std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now,
+                                 ToolHold* before = nullptr) const;
   /// Makes the object, at time `now` [s], a body that no tool holds and that tools can push. Its mass must be > 0.
   std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
   /// Makes the object a free body with this twist, under the constant wrench `load_W` of tools at their limits, at its
@@ -50,7 +52,8 @@ class HoldMaker {
   rod::ForkDofs possible_dofs(const Grasp& grasp, const GraspedBody& object) const;
 
  private:
-  std::unique_ptr<ToolHold> make_fork(const Grasp& grasp, const GraspedBody& object, double now) const;
+  std::unique_ptr<ToolHold> make_fork(const Grasp& grasp, const GraspedBody& object, stepping::StepControl control,
+                                      double now) const;
   dynamics::BodyInertia inertia(const Grasp& grasp, const GraspedBody& object) const;
 
   const rod::ForkSettings& fork_;

@@ -7,6 +7,7 @@
 #include "spring_workbench/dynamics/coupling.h"
 #include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/motion/proxy.h"
+#include "spring_workbench/stepping/step_control.h"
 #include "spring_workbench/stepping/step_estimates.h"
 #include "spring_workbench/tools/settings.h"
 #include "spring_workbench/tools/tool_state.h"
@@ -59,7 +60,7 @@ class ToolHold : public bodies::SteppedBody {
                                         const ObjectGoal& goal) const = 0;
   /// Switches DOFs on and off (fork only). Returns whether one of them is returning to zero strain.
   virtual bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) = 0;
-  virtual void set_step_control(const dynamics::DynamicsSettings& settings) = 0;
+  virtual stepping::StepControl& step_control() = 0;
 
   virtual int coordinates() const = 0;        ///< number of strain coordinates; 0 for a rigid tool
   virtual double length() const = 0;          ///< rest length [m]

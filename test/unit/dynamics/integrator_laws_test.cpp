@@ -233,5 +233,39 @@ TEST(Exponential, HasNoFloorHoweverCloseToCriticalDampingOfACoupledMode) {
   }
 }
 
+/// A history, also one of no step yet, replaces whatever the integrator has done before, of other bodies, steps and
+/// times.
+TEST(Exponential, GoesOnBitIdenticallyFromARestoredHistoryWhateverItDidBefore) {
+  std::mt19937 random(1);
+  const Case c = random_case("linear", 1.0, 0.4, random), other = random_case("linear", 0.3, 0.4, random);
+  const auto integrator = test_support::make_integrator("exponential"),
+             restored = test_support::make_integrator("exponential");
+  StrainState state = c.held.zero_state(), elsewhere = other.held.zero_state();
+  const double h = 0.02;
+  for (int i = 0; i < 10; ++i) {
+    math::StateArchive saved;
+    saved(*integrator);
+    const math::StateArchive::Words words = saved.taken();
+    for (const double share : {0.6, 1.0}) {  // looks ahead, as the displayed copy does
+      restored->step(other.held, other.hand, i * h, share * h, elsewhere);
+      math::StateArchive given(words);
+      given(*restored);
+      StrainState ahead = state;
+      const auto fresh = test_support::make_integrator("exponential");
+      math::StateArchive again(words);
+      again(*fresh);
+      StrainState expected = state;
+      const StepEstimate e = restored->step(c.held, c.hand, i * h, share * h, ahead),
+                         of_fresh = fresh->step(c.held, c.hand, i * h, share * h, expected);
+      EXPECT_EQ(ahead.q, expected.q) << i << " " << share;
+      EXPECT_EQ(ahead.q_dot, expected.q_dot) << i << " " << share;
+      EXPECT_EQ(e.q_error, of_fresh.q_error) << i << " " << share;
+      const HandleForcing f = c.held.forcing(c.hand, i * h);
+      EXPECT_EQ(restored->response(c.held, f, h, ahead).q, fresh->response(c.held, f, h, ahead).q);
+    }
+    integrator->step(c.held, c.hand, i * h, h, state);
+  }
+}
+
 }  // namespace
 }  // namespace spring_workbench::dynamics::integrator_laws_test
