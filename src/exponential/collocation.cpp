@@ -45,9 +45,10 @@ const std::array<Collocation::Row, count>& Collocation::power() {
 }
 
 Collocation::Row Collocation::interpolated(double at) {
+  const std::array<Row, count>& coefficients = power();
   Row row{};
-  for (std::size_t j = 0; j < count; ++j) {
-    for (std::size_t k = count; k-- > 0;) row[j] = row[j] * at + power()[k][j];
+  for (std::size_t k = count; k-- > 0;) {
+    for (std::size_t j = 0; j < count; ++j) row[j] = row[j] * at + coefficients[k][j];
   }
   return row;
 }

@@ -34,10 +34,9 @@ class Residual {
 
   /// The defect of the collocation polynomial through the residual at the nodes: the residual at the samples minus it.
   SPRING_WORKBENCH_INLINE static NodeStrains defect(NodeStrains at_samples, const NodeStrains& at_nodes) {
+    const std::array<math::Pack, Collocation::count>& weights = Collocation::at_samples();
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < Collocation::count; ++j) {
-        at_samples[i] -= Collocation::at_samples()[j] * at_nodes[i][j];
-      }
+      for (std::size_t j = 0; j < Collocation::count; ++j) at_samples[i] -= weights[j] * at_nodes[i][j];
     }
     return at_samples;
   }
