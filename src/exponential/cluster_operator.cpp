@@ -10,7 +10,8 @@ void ClusterOperator::set_zero(int size) {
 void ClusterOperator::set(std::size_t lane, int first, const ModalRates::Matrix& block) {
   for (int i = 0; i < block.rows(); ++i) {
     for (int j = 0; j < block.cols(); ++j) {
-      rows_[static_cast<std::size_t>((first + i) * size_ + first + j)][lane] = block(i, j);
+      const int element = (first + i) * size_ + first + j;
+      rows_[static_cast<std::size_t>(element)][lane] = block(i, j);
     }
   }
 }

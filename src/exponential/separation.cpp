@@ -64,10 +64,11 @@ Separation separated(const Matrix& A) {
     const Separation part = of_coupled(own);
     all.blocks.block(done, done, size, size) = part.blocks;
     for (int a = 0; a < size; ++a) {
-      all.cluster[static_cast<std::size_t>(done + a)] = done + part.cluster[static_cast<std::size_t>(a)];
+      const int place = done + a;
+      all.cluster[static_cast<std::size_t>(place)] = done + part.cluster[static_cast<std::size_t>(a)];
       for (int b = 0; b < size; ++b) {
         all.columns(rows[a], done + b) = part.columns(a, b);
-        all.inverse(done + a, rows[b]) = part.inverse(a, b);
+        all.inverse(place, rows[b]) = part.inverse(a, b);
       }
     }
     done += size;

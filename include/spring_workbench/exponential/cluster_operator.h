@@ -19,7 +19,7 @@ class ClusterOperator {
 
  private:
   int size_ = 0;
-  std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)> rows_;
+  std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)> rows_{};
 };
 
 }  // namespace spring_workbench::exponential
