@@ -98,7 +98,7 @@ struct ModalOperators {
     }
     if (by[0].clusters.size() == 0) return;
     for (std::size_t j = 0; j < count; ++j) {
-      std::array<double, static_cast<std::size_t>(modes)> at_node;
+      std::array<double, static_cast<std::size_t>(modes)> at_node{};
       for (std::size_t i = 0; i < at_node.size(); ++i) at_node[i] = residual[i][j];
       by[j].add_clusters(at_node, x);
     }
