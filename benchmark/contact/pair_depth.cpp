@@ -115,6 +115,8 @@ class InMesh {
       more = false;
       for (const auto& [i, j] : whole) {
         if (inside_[i] == inside_[j]) continue;
+        // As in look_at: it goes out where it crosses at a seam.
+        if (!geometry::contains(own(), points_[inside_[i] ? j : i])) continue;
         more = inside_[i] = inside_[j] = true;
         look_between(points_[i], points_[j], 0.0, 1.0);
       }

@@ -32,6 +32,13 @@ geometry::MeshPtr mesh_of(const Vector3d& size) {
   return std::make_shared<const geometry::TriangleMesh>(mesh);
 }
 
+/// The same, each layer moved along x by `slope` times its height.
+geometry::MeshPtr leaning(const Vector3d& size, double slope) {
+  geometry::TriangleMesh mesh = *mesh_of(size);
+  for (Vector3d& p : mesh.vertices) p.x() += slope * p.z();
+  return std::make_shared<const geometry::TriangleMesh>(mesh);
+}
+
 /// Random poses.
 class PairDepthLaws : public ::testing::Test {
  protected:
@@ -57,6 +64,19 @@ TEST_F(PairDepthLaws, WhatIsPushedIntoAFaceIsAsDeepAsItIsPushed) {
         EXPECT_NEAR(depth(upper, X_WA, lower, X_WB), std::max(0.0, pushed), tolerance)
             << upper.index() << ' ' << lower.index() << ' ' << pushed;
       }
+    }
+  }
+}
+
+// Edges that lie in a face, or end on it, cross it or not as rounding has it.
+TEST_F(PairDepthLaws, FlushFacesAreAsDeepAsRoundingPutsThem) {
+  const double off = 1e-10;
+  for (const double slope : {0.0, 0.1, -0.3}) {
+    const Geometry left(leaning({0.04, 0.2, 0.08}, slope)), right(leaning({0.2, 0.2, 0.1}, slope));
+    for (int i = 0; i < 1000; ++i) {
+      RigidTransform X_WA = at(Vector3d(-0.12 + 0.002 * slope, 0.0, 0.002) + off * in_cube());
+      X_WA.linear() = math::exp_so3(off * in_cube());
+      EXPECT_LE(depth(left, X_WA, right, RigidTransform::Identity()), 4.0 * off) << slope << ", " << i;
     }
   }
 }

@@ -43,8 +43,9 @@ void BodyPair::accept() {
   path_.push_back({(X_W2 * X_2F_).inverse() * X_W1, X_W1, X_W2});
 }
 
-BodyPair::Wrenches BodyPair::on_both(const Wrench& wrench_F, const Vector3d& apart_W, const Vector3d& turned_W) const {
-  const Matrix3d R_WF = math::exp_so3(turned_W) * X_WF().linear();
+BodyPair::Wrenches BodyPair::on_both(const Wrench& wrench_F, const Vector3d& apart_W,
+                                     const Vector3d& rotation_W) const {
+  const Matrix3d R_WF = math::exp_so3(rotation_W) * X_WF().linear();
   const Wrench first_W{R_WF * wrench_F.force, R_WF * wrench_F.moment};
   return {first_W, {-first_W.force, -first_W.moment - apart_W.cross(first_W.force)}};
 }

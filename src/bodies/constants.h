@@ -6,8 +6,8 @@ namespace spring_workbench::bodies {
 
 /// [rad] of a free rotation in one substep of the Runge–Kutta method. Larger: a tumbling body gains or loses energy.
 /// Test: FreeRotation.KeepsItsEnergyAndIsOfOrderFour at 1.
-constexpr double most_turn_per_substep = 0.1;
-/// Pieces of a step, however fast a body spins. Test: none: no value tried makes one fail.
-constexpr int most_substeps = 1000;
+constexpr double max_turn_per_substep = 0.1;
+/// Substeps, however fast a body spins. Test: none: no value tried makes one fail.
+constexpr int max_substeps = 1000;
 
 }  // namespace spring_workbench::bodies

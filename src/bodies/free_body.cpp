@@ -38,7 +38,7 @@ bool FreeBody::advance(double h, const Wrench& contact_W) {
   next.velocity += h * acceleration;
   // The momentum is exact; the attitude follows by a Runge–Kutta method of rotations of order four [CMO03].
   const double turn = h * angular_velocity(state_.X_WO.linear(), state_.angular_momentum).norm();
-  const int substeps = 1 + static_cast<int>(std::min(turn / most_turn_per_substep, static_cast<double>(most_substeps)));
+  const int substeps = 1 + static_cast<int>(std::min(turn / max_turn_per_substep, static_cast<double>(max_substeps)));
   const double dt = h / substeps;
   Matrix3d R = state_.X_WO.linear();
   for (int i = 0; i < substeps; ++i) {

@@ -10,12 +10,12 @@
 
 #include "bench_contacts.h"
 #include "constants.h"
+#include "manifold_reduction.h"
 #include "narrow_phase.h"
 #include "spring_workbench/geometry/box_gap.h"
 #include "spring_workbench/geometry/conservative_advancement.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
-#include "thin_out.h"
 
 namespace spring_workbench::collision {
 namespace {
@@ -54,7 +54,7 @@ struct Part {
   BoxObject in_broadphase;
   Eigen::AlignedBox3d extent;  // in the shape's frame
 
-  /// A box around the piece placed at `X`; for a mesh around its own box, so that its size does not matter.
+  /// A box around the part placed at `X`; for a mesh around its own box, so that its size does not matter.
   Eigen::AlignedBox3d box_at(const RigidTransform& X) const {
     if (!std::holds_alternative<geometry::MeshPtr>(geometry)) return geometry::bounding_box(geometry, X);
     return geometry::bounding_box(extent, X);
@@ -66,37 +66,37 @@ struct Part {
   }
 };
 
-/// A body's pieces, how far they reach from its origin, and where that is.
-struct PieceRange {
+/// A body's parts, how far they reach from its origin, and where that is.
+struct PartRange {
   std::size_t begin, end;
   double radius;
   RigidTransform X_WO;
 };
 
-/// Moves `free` towards `touching` by what is surely clear, and then by ever longer steps, from `least` on.
+/// Moves `free` towards `touching` by conservative advancement, and then by ever longer steps, from `min_step` on.
 template <typename ClearFrom, typename TouchingAt>
-void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double least, double& free,
+void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double min_step, double& free,
               double& touching) {
-  for (int i = 0; i < most_advances; ++i) {
+  for (int i = 0; i < max_advances; ++i) {
     const double clear = clear_from(free, touching);
     free += clear;
-    if (clear < least) break;
+    if (clear < min_step) break;
   }
-  for (double step = least; free + step < touching; step *= 2.0) {
+  for (double step = min_step; free + step < touching; step *= 2.0) {
     (touching_at(free + step) ? touching : free) = free + step;
   }
 }
 
 /// Memory of the broadphase's callback.
 struct Neighbours {
-  std::size_t body;  // whose own pieces do not count
+  std::size_t body;  // whose own parts do not count
   const std::vector<Part>* parts;
   std::vector<std::size_t>* found;
 };
 
 bool note_neighbour(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
   const Neighbours& query = *static_cast<Neighbours*>(data);
-  // One of the two is the query's own box, which has no piece; FCL does not say which.
+  // One of the two is the query's own box, which has no part; FCL does not say which.
   for (const fcl::CollisionObjectd* object : {a, b}) {
     const std::size_t part = BoxObject::part_of(object);
     if (part < query.parts->size() && (*query.parts)[part].body != query.body) query.found->push_back(part);
@@ -108,7 +108,7 @@ bool note_neighbour(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* da
 
 struct CollisionWorld::Impl {
   std::vector<Part> parts;
-  std::vector<PieceRange> bodies;
+  std::vector<PartRange> bodies;
   double bench_height;
   NarrowPhase narrow;
   fcl::DynamicAABBTreeCollisionManagerd broadphase;
@@ -156,7 +156,7 @@ struct CollisionWorld::Impl {
     std::sort(near.begin(), near.end());
   }
 
-  /// Contacts of one piece placed at `X_WS`, appended to `found`. With `first_only` it ends with the first piece in
+  /// Contacts of one part placed at `X_WS`, appended to `found`. With `first_only` it ends with the first part in
   /// contact.
   void find(const Part& part, const RigidTransform& X_WS, const Tolerance& tolerance, bool first_only) {
     const Eigen::AlignedBox3d box = part.box_at(X_WS);
@@ -164,7 +164,7 @@ struct CollisionWorld::Impl {
       const std::size_t first = found.size();
       append_bench_contacts(part.geometry, X_WS, bench_height, tolerance.in(bench), found);
       if (first_only && found.size() > first) return;
-      if (found.size() - first > most_bench_points) reduce_manifold(first, found);
+      if (found.size() - first > max_bench_points) reduce_manifold(first, found);
     }
     find_near(part.body, geometry::grown(box, std::max(0.0, -tolerance.depth())));
     for (const std::size_t i : near) {
@@ -183,33 +183,33 @@ struct CollisionWorld::Impl {
     }
   }
 
-  /// Fraction, at most `longest`, of the displacement `move`, `turn` (in the body's axes) that the body can surely make
-  /// from `X_WO` on without being deeper in anything than `tolerance`: conservative advancement, part by part. Boxes
-  /// stay apart as long as their corners do not cross a plane between them; if the boxes around other shapes overlap,
-  /// the gap between their surfaces counts.
-  double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
-                   const Tolerance& tolerance, double longest) {
+  /// Fraction, at most `limit`, of the displacement `move`, `turn` (in the body's axes) that the body can certainly
+  /// make from `X_WO` on without being deeper in anything than `tolerance`: conservative advancement, part by part.
+  /// Boxes stay apart as long as their corners do not cross a plane between them; if the boxes around other shapes
+  /// overlap, the gap between their surfaces counts.
+  double free_distance(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
+                       const Tolerance& tolerance, double limit) {
     const geometry::StraightMotion path{X_WO.translation(), move_W, X_WO.linear() * turn_O};
     const double fastest = move_W.norm() + bodies[body].radius * turn_O.norm();
-    double clear = longest;
+    double clear = limit;
     for (std::size_t i = bodies[body].begin; i < bodies[body].end && clear > 0.0; ++i) {
       const RigidTransform X_WS = X_WO * parts[i].X_OS;
       const geometry::OutlineBox own = parts[i].outline(X_WS);
       const Eigen::AlignedBox3d box = parts[i].box_at(X_WS);
-      const double by_corners = geometry::clear_above(own, path, {Vector3d::UnitZ(), bench_height},
-                                                      own.exact ? tolerance.in(bench) : 0.0, clear);
+      const double by_corners = geometry::free_fraction_above(own, path, {Vector3d::UnitZ(), bench_height},
+                                                              own.exact ? tolerance.in(bench) : 0.0, clear);
       clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
       find_near(body, geometry::grown(box, fastest * clear));
       for (const std::size_t other : near) {
         const geometry::OutlineBox others = parts[other].outline(parts[other].X_WS);
         const bool exact = own.exact && others.exact;
         const double depth = tolerance.in(parts[other].body);
-        const double boxes = geometry::clear_of(own, path, others, exact ? depth : 0.0, clear);
+        const double boxes = geometry::free_fraction_to(own, path, others, exact ? depth : 0.0, clear);
         if (exact || boxes >= clear) {
           clear = boxes;
         } else {
           const double surfaces =
-              narrow.clear_way(parts[i].solid, X_WS, parts[other].solid, parts[other].X_WS, depth) / fastest;
+              narrow.free_distance(parts[i].solid, X_WS, parts[other].solid, parts[other].X_WS, depth) / fastest;
           clear = std::max(boxes, std::min(clear, surfaces));
         }
       }
@@ -217,7 +217,7 @@ struct CollisionWorld::Impl {
     return clear;
   }
 
-  /// Around a piece on the whole way: the boxes at both ends, and what the arc between adds to them, which is at most
+  /// Around a part on the whole path: the boxes at both ends, and what the arc between adds to them, which is at most
   /// r θ²/8 for a point at r (the error of linear interpolation); or the ball around the body, where that is less.
   Eigen::AlignedBox3d swept_box(const Part& part, const RigidTransform& X0, const RigidTransform& X1) const {
     const double radius = bodies[part.body].radius;
@@ -238,7 +238,7 @@ void CollisionWorld::set_pose(std::size_t body, const RigidTransform& X_WO) { im
 
 bool CollisionWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                                double margin) const {
-  const PieceRange& range = impl_->bodies[body];
+  const PartRange& range = impl_->bodies[body];
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const Eigen::AlignedBox3d box = geometry::grown(impl_->swept_box(impl_->parts[i], X0_WO, X1_WO), margin);
     if (box.min().z() < impl_->bench_height) return true;
@@ -281,14 +281,14 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
   const auto touching_at = [&](double fraction) { return touches(body, at(fraction), tolerance); };
   const auto clear_from = [&](double fraction, double until) {
     return tolerance.depth() < 0.0 ? 0.0
-                                   : impl_->clear_way(body, at(fraction), move, turn, tolerance, until - fraction);
+                                   : impl_->free_distance(body, at(fraction), move, turn, tolerance, until - fraction);
   };
   if (touching_at(0.0)) return {true, 0.0, 0.0};
-  const double least = std::min(1.0, resolution / std::max(path, resolution));
+  const double min_step = std::min(1.0, resolution / std::max(path, resolution));
   double free = 0.0, touching = 2.0;
   while (free < 1.0 && touching > 1.0) {
     const double clear = clear_from(free, 1.0);
-    const double looked_at = std::min(1.0, free + std::max(least, clear));
+    const double looked_at = std::min(1.0, free + std::max(min_step, clear));
     (looked_at - free <= clear || !touching_at(looked_at) ? free : touching) = looked_at;
   }
   if (touching > 1.0) return {};

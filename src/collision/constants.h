@@ -6,28 +6,25 @@
 
 namespace spring_workbench::collision {
 
-/// [m] of the way, between the free and the touching end of a time of impact. Test: Sweep.TheTimeOfImpactIsExact at
+/// [m] of the path, between the free and the touching end of a time of impact. Test: Sweep.TheTimeOfImpactIsExact at
 /// 1e-06.
 constexpr double impact_precision = 1e-8;
-/// By what is surely clear, before the rest of a way is halved. Fewer: more queries. Test: Sweep.TheTimeOfImpactIsExact
+/// Conservative advances before the rest of a path is halved. Fewer: more queries. Test: Sweep.TheTimeOfImpactIsExact
 /// at 0.
-constexpr int most_advances = 50;
+constexpr int max_advances = 50;
 /// Of a shape on the bench that are kept as they are; of more, those furthest out are. Fewer: a box loses corners.
 /// Test: Bench.FlushFacesGivePointsThatSpanThem at 1.
-constexpr std::size_t most_bench_points = 8;
+constexpr std::size_t max_bench_points = 8;
 /// [m]; contacts nearer to each other are one. Test: Pairs.MeshesOfBoxesTouchAsTheBoxesDo at 0.
 constexpr double same_place = 1e-7;
 /// Sine of the angle at an edge, below which it is a seam within a face and touches nothing. Test:
 /// Pairs.MeshesOfBoxesTouchAsTheBoxesDo at 1.
 constexpr double flat_edge = 1e-6;
-/// Cosine to how two surfaces meet on the whole; a way out that goes along it less is none. Test:
+/// Cosine to how two surfaces meet on the whole; a contact normal that goes along it less is none. Test:
 /// Pairs.HowFinelyAFloorIsCutDoesNotShow at 5.
-constexpr double least_along = 0.5;
-/// Of that cosine; of ways that differ by less the least deep is taken. Test: Pairs.HowFinelyAFloorIsCutDoesNotShow at
-/// 10.
+constexpr double min_along = 0.5;
+/// Of that cosine; of normals that differ by less the shallowest is taken. Test: Pairs.HowFinelyAFloorIsCutDoesNotShow
+/// at 10.
 constexpr double as_good = 0.1;
-/// That FCL may give of two boxes, of which there are eight. Fewer: faces lose corners. Test:
-/// Pairs.FlushBoxesGivePointsThatSpanTheCommonFace at 1.
-constexpr std::size_t most_box_points = 16;
 
 }  // namespace spring_workbench::collision

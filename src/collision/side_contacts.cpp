@@ -14,7 +14,7 @@ using Corners = std::array<Vector3d, 3>;  // of a triangle, in the cylinder's fr
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Where on the way from `a` to `b` it is nearest to the z axis: 0 … 1.
+/// Where on the segment from `a` to `b` it is nearest to the z axis: 0 … 1.
 double nearest_on_edge(const Vector3d& a, const Vector3d& b) {
   const Vector2d along = (b - a).head<2>();
   const double size = along.squaredNorm();
@@ -93,22 +93,22 @@ std::unique_ptr<TriangleTree> make_tree(const geometry::Surface& surface) {
   return std::make_unique<TriangleTree>(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
-BesideCylinder::BesideCylinder(const geometry::Surface& surface, const TriangleTree& tree,
-                               const geometry::Cylinder& cylinder, const RigidTransform& X_MC)
+CylinderSide::CylinderSide(const geometry::Surface& surface, const TriangleTree& tree,
+                           const geometry::Cylinder& cylinder, const RigidTransform& X_MC)
     : surface_(surface), tree_(tree), cylinder_(cylinder), X_CM_(X_MC.inverse()) {}
 
-double BesideCylinder::gap() const {
+double CylinderSide::gap() const {
   Nearest nearest{{surface_, X_CM_}};
   return Eigen::BVMinimize(tree_, nearest) - cylinder_.radius;
 }
 
-bool BesideCylinder::is_between_ends() const {
+bool CylinderSide::is_between_ends() const {
   const Eigen::AlignedBox3d box = tree_.getVolume(tree_.getRootIndex());
   const double half = X_CM_.linear().row(2).cwiseAbs().dot(0.5 * box.sizes());
   return std::abs((X_CM_ * box.center()).z()) + half < 0.5 * cylinder_.length;
 }
 
-bool BesideCylinder::append_contacts(double tolerance, std::vector<ContactPoint>& contacts) const {
+bool CylinderSide::append_contacts(double tolerance, std::vector<ContactPoint>& contacts) const {
   const View view{surface_, X_CM_};
   std::vector<int> triangles;
   Near near{view, cylinder_.radius - tolerance, triangles};

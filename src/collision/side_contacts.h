@@ -15,13 +15,13 @@ namespace spring_workbench::collision {
 using TriangleTree = Eigen::KdBVH<double, 3, int>;
 std::unique_ptr<TriangleTree> make_tree(const geometry::Surface& surface);
 
-/// A mesh beside a cylinder, where the cylinder's ends are not in play: exact, as what comes nearest to the axis of a
+/// A mesh next to a cylinder, where the cylinder's ends are not in play: exact, as what comes nearest to the axis of a
 /// cylinder is a point of an edge, unless the axis goes through a triangle.
-class BesideCylinder {
+class CylinderSide {
  public:
   /// `X_MC`: the cylinder in the frame of the surface. All are kept by reference.
-  BesideCylinder(const geometry::Surface& surface, const TriangleTree& tree, const geometry::Cylinder& cylinder,
-                 const RigidTransform& X_MC);
+  CylinderSide(const geometry::Surface& surface, const TriangleTree& tree, const geometry::Cylinder& cylinder,
+               const RigidTransform& X_MC);
 
   /// The gap to the cylinder if it had no ends [m]; negative where an edge is in it, −radius where its axis goes
   /// through a triangle.

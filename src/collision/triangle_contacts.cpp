@@ -79,17 +79,17 @@ Paths find_paths(const Triangle& own, const Triangle& other) {
   return paths;
 }
 
-/// The least deep of the paths that are about as near to `n` as the nearest one; nothing if all are far from it.
+/// The shallowest of the paths that are about as near to `n` as the nearest one; nothing if all are far from it.
 std::optional<std::size_t> choose_path(const Paths& paths, const std::optional<Vector3d>& n) {
   const auto goes_along = [&](const ContactPoint& path) { return n ? n->dot(path.n_W) : 1.0; };
-  double best = least_along;
+  double best = min_along;
   for (std::size_t i = 0; i < paths.count; ++i) {
     if (paths.deepest[i].depth > 0.0) best = std::max(best, goes_along(paths.deepest[i]));
   }
   std::optional<std::size_t> chosen;
   for (std::size_t i = 0; i < paths.count; ++i) {
     const ContactPoint& path = paths.deepest[i];
-    if (!(path.depth > 0.0) || goes_along(path) < std::max(least_along, best - as_good)) continue;
+    if (!(path.depth > 0.0) || goes_along(path) < std::max(min_along, best - as_good)) continue;
     if (!chosen || path.depth < paths.deepest[*chosen].depth) chosen = i;
   }
   return chosen;

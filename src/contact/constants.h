@@ -39,7 +39,7 @@ constexpr double recovery_time = 5e-3;
 constexpr double solved_share = 0.01;
 /// [m]; largest chord deviation between the path and the straight segments that are swept. Larger: corners are cut.
 /// Goes into `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
-constexpr double most_chord_deviation = 5e-5;
+constexpr double max_chord_deviation = 5e-5;
 /// [m/s]; an approach that is slower counts as none. Goes into `PressedAndShifted.Follow`.
 constexpr double slow_approach = 1e-6;
 /// Fraction of a step; what is met sooner is met now. Larger: a body bounces before it is there. Goes into
@@ -47,58 +47,53 @@ constexpr double slow_approach = 1e-6;
 constexpr double near_share = 1e-3;
 /// Fraction of a step; less is none. Larger: where a fork bent far folds, the body is blocked. Goes into
 /// `RodInRoom.GoesThroughNoWall`.
-constexpr double shortest_share = 1e-9;
+constexpr double min_substep_share = 1e-9;
 /// Factor by which a substep is shortened if its loads could not be found. Goes into `PressedAndShifted.Follow`.
-constexpr double shorter = 0.25;
+constexpr double reduction = 0.25;
 /// Largest number of straight segments in which the path over a substep is swept. Goes into
 /// `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
-constexpr double most_segments = 4.0;
-/// Factor by which the next substep is kept shorter than the longest one that is straight enough. Goes into
-/// `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
+constexpr double max_segments = 4.0;
+/// Factor by which the next substep is kept shorter than the longest one that is straight enough, or admissible. Goes
+/// into `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
 constexpr double safety = 0.9;
 /// Largest ratio of a substep to the one before, in both contact modes. Goes into
 /// `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
-constexpr double longer = 2.0;
+constexpr double max_growth = 2.0;
 /// Largest number of substeps tried in a step; then the body is blocked for the rest of it: where an undamped fork
 /// swings a million times in a step, or an open mesh pushes both ways. Goes into `PressedAndShifted.Follow`.
-constexpr int most_tries = 2000;
+constexpr int max_tries = 2000;
 /// Largest number of solutions of one substep, each linearised about the last. Goes into `PressedAndShifted.Follow`.
-constexpr int most_solutions = 8;
+constexpr int max_solutions = 8;
 /// Largest number of solutions of one substep among movable bodies, each linearised about the loads of the last. Goes
 /// into `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
-constexpr int most_dynamic_solutions = 4;
-/// Largest number of iterations of solve_contacts(). Goes into `PressedAndShifted.Follow`.
-constexpr int most_sweeps = 200;
-/// Contacts that are solved at once where the iterations are not done. More: where meshes touch, steps cost several
-/// times as much. Test: none: not tried yet.
-constexpr std::size_t most_at_once = 12;
-/// Fraction of the largest load; the iterations end when no load changes by more. Goes into
+constexpr int max_dynamic_solutions = 4;
+/// Fraction of the displacement or velocity without loads; a contact problem is solved to it if a few iterations do it.
+/// Larger: what slips is braked too much. Goes into `PressedAndShifted.Follow`.
+constexpr double load_share = 1e-5;
+/// Fraction of the displacement by the loads below which a change of them counts as none. Goes into
 /// `Simulation.PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference`.
 constexpr double small_change = 1e-6;
 /// [s]; longest substep among movable bodies if something is touched. Longer: friction and pushing are less exact. Goes
 /// into `DynamicContact.PushesANeighbourAlong`.
-constexpr double longest_piece = 2e-3;
+constexpr double max_substep = 2e-3;
 /// [s]; longest substep if a body moves that is not held, because the error of the world is of first order. Goes into
 /// `DynamicContact.PushesANeighbourAlong`.
-constexpr double longest_with_free = 1e-3;
+constexpr double max_substep_with_free = 1e-3;
 /// [s]; contact ignores a step that is shorter. Goes into
 /// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
-constexpr double shortest_step = 1e-9;
+constexpr double min_step = 1e-9;
 /// [s] for which a held body is blocked if no motion is possible. Goes into
 /// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
 constexpr double blocked_substep = 2e-4;
-/// Factor of the admissible fraction of a substep in the length of the next try. Goes into
-/// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
-constexpr double as_sound = 0.9;
 /// Shortest next try, as a fraction of the substep. Goes into
 /// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
-constexpr double least_try = 0.1;
+constexpr double min_retry = 0.1;
 /// Longest next try, as a fraction of the substep. Goes into
 /// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
-constexpr double most_try = 0.7;
+constexpr double max_retry = 0.7;
 /// [s]; shortest substep; in a step that is shorter than the longest substep, it is shorter in proportion. Smaller:
 /// more tries before a body is blocked. Goes into `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
-constexpr double shortest_piece = 1e-5;
+constexpr double min_substep = 1e-5;
 /// [m] from the path of a body within which other bodies are considered. Goes into
 /// `DynamicContact.ANeighbourThatIsNotTouchedIsNotFelt`.
 constexpr double margin_near = 5e-4;

@@ -1,4 +1,4 @@
-// The impulses of `ContactStepper`: what takes effect at once, between two pieces of a step.
+// The impulses of `ContactStepper`: what takes effect at once, between two substeps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,12 +30,12 @@ void ContactStepper::collide(bodies::SteppedBody& body, std::vector<ContactRow>&
   if (!approach) return;
   const Matrix6d mobility = body.mobility();
   const bool massless = mobility.isZero(0.0);  // takes no impulse, however long the substep
-  let_yield(contacts, hits, massless ? std::numeric_limits<double>::infinity() : substep, restitution);
-  body.add_impulse(impact(mobility, to_vector(s.velocity), contacts, restitution, h));
+  set_impulse_compliance(contacts, hits, massless ? std::numeric_limits<double>::infinity() : substep, restitution);
+  body.add_impulse(impact(problem_, mobility, to_vector(s.velocity), contacts, restitution, h));
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse_W += contacts[i].load_W;
 }
 
-void ContactStepper::settle(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const {
+void ContactStepper::correct_impulses(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const {
   const motion::MotionState s = body.object();
   std::vector<ContactRow> impulses = rows;
   for (ContactRow& impulse : impulses) {
@@ -50,7 +50,7 @@ void ContactStepper::settle(bodies::SteppedBody& body, std::vector<ContactRow>& 
     impulse.slip_W = v - n * v.dot(n);
   }
   const Wrench given = total_load(impulses);
-  solve_contacts(body.mobility(), impulses);
+  solve_contacts(problem_, body.mobility(), touching / h, impulses);
   body.add_impulse(total_load(impulses) - given);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse_W += impulses[i].load_W - h * rows[i].load_W;
 }

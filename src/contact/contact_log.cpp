@@ -28,7 +28,7 @@ void ContactLog::reset(std::size_t objects) {
   with_contacts_.clear();
   before_.clear();
   ended_.clear();
-  told_.clear();
+  reported_.clear();
 }
 
 void ContactLog::note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows,
@@ -47,7 +47,7 @@ void ContactLog::note(std::size_t object, const bodies::BodyState& state, const 
     c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
     now_touching.push_back(c);
   }
-  // What was touched and is no more, until it has been told.
+  // What was touched and is no more, until it has been reported.
   for (ContactState& c : touching_[object]) {
     if (contains_pair(now_touching, c)) continue;
     c.impulse = c.force = 0.0;
@@ -75,7 +75,7 @@ void ContactLog::exchange(math::StateArchive& state) {
   }
   state(with_contacts_);
   for (const std::size_t object : with_contacts_) state(touching_.at(object));
-  state(ended_, told_);
+  state(ended_, reported_);
 }
 
 std::vector<ContactState> ContactLog::all() const {
@@ -89,14 +89,14 @@ std::vector<ContactState> ContactLog::all() const {
 void ContactLog::begin_call() { before_ = all(); }
 
 void ContactLog::end_call() {
-  told_ = all();
-  for (ContactState& c : told_) {
+  reported_ = all();
+  for (ContactState& c : reported_) {
     c.phase = contains_pair(before_, c) ? ContactPhase::persisting : ContactPhase::started;
   }
   for (ContactState& c : ended_) {
-    if (contains_pair(told_, c)) continue;
+    if (contains_pair(reported_, c)) continue;
     c.phase = ContactPhase::ended;
-    told_.push_back(c);
+    reported_.push_back(c);
   }
   ended_.clear();
 }

@@ -25,6 +25,16 @@ bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows) 
          std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return r.point.other == row.point.other; });
 }
 
+Matrix3d axes_of(const ContactRow& row) {
+  const Vector3d& n = row.point.n_W;
+  const Vector3d across = n.unitOrthogonal();
+  return (Matrix3d() << n, across, n.cross(across)).finished();
+}
+
+Eigen::Matrix<double, 3, 6> jacobian(const Matrix3d& axes, const ContactRow& row) {
+  return (Eigen::Matrix<double, 3, 6>() << axes.transpose(), -axes.transpose() * math::skew(row.lever_W)).finished();
+}
+
 double indentation(const std::vector<ContactRow>& rows, const ContactRow& at) {
   double load = 0.0;
   for (const ContactRow& row : rows) {
@@ -33,11 +43,11 @@ double indentation(const std::vector<ContactRow>& rows, const ContactRow& at) {
   return at.compliance * load;
 }
 
-void let_yield(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
-               std::vector<double>& restitution) {
+void set_impulse_compliance(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
+                            std::vector<double>& restitution) {
   std::set<std::size_t> loaded, hit;  // others
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].load_W != Vector3d::Zero() || has_given(rows[i])) loaded.insert(rows[i].point.other);
+    if (rows[i].load_W != Vector3d::Zero() || has_impulse(rows[i])) loaded.insert(rows[i].point.other);
     if (hits[i]) hit.insert(rows[i].point.other);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -13,9 +13,14 @@ Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3
 double extent(const RigidTransform& X0, const RigidTransform& X1, double radius);
 
 bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within = same_point);
-inline bool has_given(const ContactRow& row) { return row.impulse_W != Vector3d::Zero(); }
+inline bool has_impulse(const ContactRow& row) { return row.impulse_W != Vector3d::Zero(); }
 /// Returns whether a row is compliant and there is a contact with the same other body.
 bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows);
+
+/// Axes [normal, across, across] of a contact, in world.
+Matrix3d axes_of(const ContactRow& row);
+/// Motion of a contact's point along its axes per motion of the body.
+Eigen::Matrix<double, 3, 6> jacobian(const Matrix3d& axes, const ContactRow& row);
 
 /// Returns by how much the materials at a contact are indented along its normal: their compliance times the normal
 /// loads of all contacts with the same body, which indent one surface together.
@@ -23,8 +28,8 @@ double indentation(const std::vector<ContactRow>& rows, const ContactRow& at);
 
 /// Sets the compliance of rows to impulses over a substep of `h` [s]. Materials that carry no load yet are rigid if one
 /// of their contacts hits; those that yield give nothing back.
-void let_yield(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
-               std::vector<double>& restitution);
+void set_impulse_compliance(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
+                            std::vector<double>& restitution);
 
 /// Depths admissible on a path: that of a rigid contact, and in compliant ones that of the rows at both ends, with the
 /// chord deviation of the path [m].

@@ -74,7 +74,7 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
     row.load_W = old->load_W;
     row.impulse_W = std::exchange(old->impulse_W, Vector3d::Zero());
   }
-  std::copy_if(before.begin(), before.end(), std::back_inserter(outcome.rows), has_given);
+  std::copy_if(before.begin(), before.end(), std::back_inserter(outcome.rows), has_impulse);
 }
 
 bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -89,7 +89,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
   }
   Matrix6d C = body.response(h).displacement;
   if (!body.advance(h, total_load(work))) return false;
-  for (int solution = 1; solution <= most_solutions; ++solution) {
+  for (int solution = 1; solution <= max_solutions; ++solution) {
     look_at_end(body, X0, work, starts, outcome);
     std::vector<ContactRow> assumed = work;
     double worst = 0.0;
@@ -102,7 +102,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
       if (complies) work[i].gap += indentation(assumed, assumed[i]);
       worst = std::max(worst, -work[i].gap);
     }
-    solve_contacts(C, work);
+    solve_contacts(problem_, C, touching, work);
     // Done when solving again would not move the body, however the contacts share what they carry.
     const Wrench load = total_load(work), corrects = load - total_load(assumed);
     const auto moves = [&](const Wrench& by) {
@@ -134,12 +134,12 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
                                  ContactOutcome& outcome) const {
   const RigidTransform X1 = body.object().X;
   const Vector3d moved_on = X1.translation() - X0.translation();
-  const Vector3d turned = X0.linear() * math::turn_between(X0, X1);
-  // A point that stays on the surface slips by its way; one of a body that rolls comes or goes, and slips by what the
+  const Vector3d rotation = X0.linear() * math::turn_between(X0, X1);
+  // A point that stays on the surface slips by its path; one of a body that rolls comes or goes, and slips by what the
   // contact, which stays under the body, does.
   const auto set_slip = [&](ContactRow& row, const Vector3d& path) {
     const bool rolls = std::abs(path.dot(row.point.n_W)) > touching;
-    const Vector3d slip = rolls ? Vector3d(moved_on + turned.cross(row.lever_W)) : path;
+    const Vector3d slip = rolls ? Vector3d(moved_on + rotation.cross(row.lever_W)) : path;
     row.slip_W = slip - row.point.n_W * slip.dot(row.point.n_W);
   };
   std::vector<ContactRow> seen;  // at first what has rolled off: another point touches there, though it is not deep
@@ -181,7 +181,7 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     work[at] = row;
     work[at].load_W = before.load_W;
     work[at].impulse_W = before.impulse_W;
-    // It presses there when it has come: at its own point, which an unloaded piece carries deep into the other.
+    // It presses there when it has come: at its own point, which an unloaded substep carries deep into the other.
     work[at].lever_W = row.point.p_W + row.gap * row.point.n_W - X1.translation();
     set_slip(work[at], path);
     starts[at] = {row.gap - path.dot(row.point.n_W), start - X0.translation()};
@@ -203,7 +203,7 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
   };
   const motion::MotionSegment path({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear,
                                    rates(end));
-  const int count = static_cast<int>(std::ceil(std::sqrt(chord_deviation(body, begin, end, h) / most_chord_deviation)));
+  const int count = static_cast<int>(std::ceil(std::sqrt(chord_deviation(body, begin, end, h) / max_chord_deviation)));
   std::vector<collision::ContactPoint> inside;  // what it is in already, it may not go deeper into
   collision::Tolerance tolerance = admissible;
   collision_.find_contacts(body, begin.X, tolerance, inside);
@@ -221,48 +221,48 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
   return {};
 }
 
-ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go,
-                                                  std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+ContactStepper::Substep ContactStepper::try_substep(bodies::SteppedBody& body, double h, const MotionCheck& is_allowed,
+                                                    std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
   const std::size_t index = body.index();
   const motion::MotionState begin = body.object();
   const bool in_contact = !rows.empty();
   std::vector<ContactRow> solved = rows;
   body.save(start_);
   const auto is_free = [this, index](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
-    return !collision_.may_touch(index, X0_WO, X1_WO, most_chord_deviation) ||
+    return !collision_.may_touch(index, X0_WO, X1_WO, max_chord_deviation) ||
            !collision_.sweep(index, X0_WO, X1_WO, touching, sweep_resolution, 1).hit;
   };
   const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance_freely(h, is_free);
   if (!possible || !bodies::is_finite(body.object())) {
     body.restore(start_);
     outcome.refused = outcome.refused || !in_contact;
-    return {false, in_contact ? shorter : 0.0, {}};
+    return {false, in_contact ? reduction : 0.0, {}};
   }
   const motion::MotionState end = body.object();
-  if (!may_go(begin.X, end.X)) {
+  if (!is_allowed(begin.X, end.X)) {
     body.restore(start_);
     return {false, 0.0, {}, false};
   }
-  const double bowed = chord_deviation(index, begin, end, h);
-  const double straight = safety * std::sqrt(most_segments * most_segments * most_chord_deviation /
-                                             std::max(bowed, 1e-3 * most_chord_deviation));
-  if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_chord_deviation))) {
+  const double deviation = chord_deviation(index, begin, end, h);
+  const double straight = safety * std::sqrt(max_segments * max_segments * max_chord_deviation /
+                                             std::max(deviation, 1e-3 * max_chord_deviation));
+  if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(deviation, max_chord_deviation))) {
     if (straight < safety) {
       body.restore(start_);
       return {false, straight, {}};
     }
     const Obstruction found =
-        sweep(index, begin, end, h, in_contact ? admissible_depths(rows, solved, bowed) : touching);
+        sweep(index, begin, end, h, in_contact ? admissible_depths(rows, solved, deviation) : touching);
     ++outcome.queries;
     if (found.hit) {
-      Piece substep{false, found.free, {}};
+      Substep substep{false, found.free, {}};
       body.restore(start_);
       add_contacts(index, found.X_WO, touching, substep.touched, outcome);
       // Between its ends it goes deeper into what it touches already: how deep is of second order.
       const bool sags = std::all_of(substep.touched.begin(), substep.touched.end(), [&](const ContactRow& at) {
         return std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, at.point); });
       });
-      if (sags) substep.next = std::max(substep.next, shorter);
+      if (sags) substep.next = std::max(substep.next, reduction);
       for (ContactRow& row : substep.touched) {
         const Vector3d here = moved(found.X_WO, begin.X, row.point.p_W);
         row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
@@ -274,28 +274,28 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
   rows = std::move(solved);
   for (ContactRow& row : rows) row.impulse_W += h * row.load_W;
   body.accept();
-  if (body.reverses()) settle(body, rows, h);
-  return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
+  if (body.reverses()) correct_impulses(body, rows, h);
+  return {true, in_contact ? std::clamp(straight, 0.5, max_growth) : max_growth, {}};
 }
 
-bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
-                          ContactOutcome& outcome) {
-  const MayGo on_the_way = [](const RigidTransform&, const RigidTransform&) { return true; };
-  if (const RigidTransform here = body.object().X; !may_go(here, here)) return false;
+bool ContactStepper::step(bodies::SteppedBody& body, double h, const MotionCheck& is_allowed,
+                          std::vector<ContactRow>& rows, ContactOutcome& outcome) {
+  const MotionCheck allows_all = [](const RigidTransform&, const RigidTransform&) { return true; };
+  if (const RigidTransform here = body.object().X; !is_allowed(here, here)) return false;
   double left = h, substep = h;
   bool met = false;  // since the last substep that was done
   for (ContactRow& row : rows) row.impulse_W.setZero();
   refresh(body, rows, probe_depth, outcome);
   collide(body, rows, Bounce::of_materials, h, h);
-  for (int i = 0; i < most_tries && left > shortest_share * h; ++i) {
+  for (int i = 0; i < max_tries && left > min_substep_share * h; ++i) {
     substep = std::min(substep, left);
-    Piece tried = try_substep(body, substep, left == h ? may_go : on_the_way, rows, outcome);
+    Substep tried = try_substep(body, substep, left == h ? is_allowed : allows_all, rows, outcome);
     if (!tried.allowed) return false;
     if (tried.done) {
       left -= substep;
       substep *= tried.next;
       met = false;
-      if (left > shortest_share * h) {
+      if (left > min_substep_share * h) {
         refresh(body, rows, probe_depth, outcome);
         collide(body, rows, Bounce::none, h, std::min(substep, left));
       }
@@ -304,18 +304,18 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
     double next = tried.next * substep;
     const bool meets =
         next < near_share * h && !tried.touched.empty() && meet(body, tried.touched, h, substep, rows, outcome);
-    if (meets && !rows.empty()) next = std::exchange(met, true) ? shorter * substep : substep;
-    if (next <= shortest_share * h) break;
+    if (meets && !rows.empty()) next = std::exchange(met, true) ? reduction * substep : substep;
+    if (next <= min_substep_share * h) break;
     substep = next;
   }
-  if (left > shortest_share * h) {
+  if (left > min_substep_share * h) {
     body.block(left);
     outcome.time_lost += left;
     for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
   }
   const auto open =
       std::stable_partition(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap <= probe_depth; });
-  std::copy_if(open, rows.end(), std::back_inserter(outcome.rows), has_given);
+  std::copy_if(open, rows.end(), std::back_inserter(outcome.rows), has_impulse);
   rows.erase(open, rows.end());
   outcome.rows.insert(outcome.rows.end(), rows.begin(), rows.end());
   return true;

@@ -1,7 +1,5 @@
 #include "spring_workbench/contact/dynamic_stepper.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
 
@@ -10,19 +8,6 @@
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::contact {
-namespace {
-
-/// A compliance as it has to be: symmetric, and nothing comes towards a load. Of a fork that is far from straight it
-/// may not be.
-Matrix6d positive(const Matrix6d& compliance) {
-  const Matrix6d C = 0.5 * (compliance + compliance.transpose());
-  if (C.llt().info() == Eigen::Success) return C;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> modes(C);
-  return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
-}
-
-}  // namespace
-
 DynamicStepper::DynamicStepper(const scene::Scene& scene) : scene_(scene), world_(open_rigid_world(scene)) {}
 
 DynamicStepper::Candidate DynamicStepper::try_substep(bodies::SteppedBody& body, double h) const {
@@ -46,7 +31,7 @@ bool DynamicStepper::all_free(const std::vector<Candidate>& candidates) const {
   });
 }
 
-void DynamicStepper::go_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome) {
+void DynamicStepper::step_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome) {
   for (const Candidate& c : candidates) {
     if (!c.possible) {
       c.body->restore(c.start);
@@ -70,57 +55,57 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
     loads[body->index()] = load_W_[body->index()];
   }
   load_W_ = std::move(loads);
-  shortest_piece_ = shortest_piece * std::min(1.0, h / longest_piece);
+  min_substep_ = min_substep * std::min(1.0, h / max_substep);
   Outcome outcome;
   double left = h, substep = h;
   while (left > 1e-9 * h) {
     substep = std::min(substep, left);
-    if (left < longer * substep && left > substep) substep = 0.5 * left;  // no small last one
+    if (left < max_growth * substep && left > substep) substep = 0.5 * left;  // no small last one
     std::vector<Candidate> candidates;
     for (bodies::SteppedBody* body : held) candidates.push_back(try_substep(*body, substep));
     ++outcome.substeps;
-    if (h <= shortest_step || all_free(candidates)) {
-      go_freely(candidates, substep, outcome);
+    if (h <= min_step || all_free(candidates)) {
+      step_freely(candidates, substep, outcome);
     } else {
-      const Piece result = go_in_contact(std::move(candidates), substep);
-      if (result == Piece::too_long) continue;
-      if (result == Piece::gone_unsolved) ++outcome.unsolved;
-      if (result == Piece::stuck) {
+      const Result result = step_in_contact(std::move(candidates), substep);
+      if (result == Result::too_long) continue;
+      if (result == Result::done_unsolved) ++outcome.unsolved;
+      if (result == Result::stuck) {
         substep = std::min(blocked_substep, left);
-        hold_back(held, substep, outcome);
+        block(held, substep, outcome);
       }
     }
     left -= substep;
-    substep *= longer;
+    substep *= max_growth;
   }
   return outcome;
 }
 
-DynamicStepper::Piece DynamicStepper::go_in_contact(std::vector<Candidate> candidates, double& h) {
+DynamicStepper::Result DynamicStepper::step_in_contact(std::vector<Candidate> candidates, double& h) {
   const auto start_again = [&] {
     for (const Candidate& c : candidates) c.body->restore(c.start);
   };
   start_again();
-  const double longest = others_awake() ? longest_with_free : longest_piece;
-  if (h > longest) {
-    h = longest;
-    return Piece::too_long;
+  const double limit = others_awake() ? max_substep_with_free : max_substep;
+  if (h > limit) {
+    h = limit;
+    return Result::too_long;
   }
-  const auto shorten = [&](double sound) {
+  const auto shorten = [&](double admissible) {
     world_->undo_step();
     start_again();
-    h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
-    return Piece::too_long;
+    h = std::max(std::clamp(safety * admissible, min_retry, max_retry) * h, min_substep_);
+    return Result::too_long;
   };
   std::vector<rigid_bodies::DrivenBody> driven = solve(candidates, h);
-  const double of_free = world_->admissible_fraction_of_free();
-  if (of_free < 1.0 && h > shortest_piece_) return shorten(of_free);
-  double sound = admissible_fraction(candidates, driven, h);
+  const double free_admissible = world_->admissible_fraction_of_free();
+  if (free_admissible < 1.0 && h > min_substep_) return shorten(free_admissible);
+  double admissible = admissible_fraction(candidates, driven, h);
   double before = 0.0;
-  for (int solution = 1; sound < 1.0 && sound > before && solution < most_dynamic_solutions; ++solution) {
-    if (foreseen_admissible_fraction(driven) < 1.0) break;
-    before = sound;
-    // The fork gives way otherwise than to the load that was assumed: once more, about this one.
+  for (int solution = 1; admissible < 1.0 && admissible > before && solution < max_dynamic_solutions; ++solution) {
+    if (predicted_admissible_fraction(driven) < 1.0) break;
+    before = admissible;
+    // The fork responds to this load otherwise than to the one assumed: solve again, about this one.
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       candidates[i].end = candidates[i].body->object();
       candidates[i].load_W = driven[i].contact_W;
@@ -129,16 +114,16 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(std::vector<Candidate> candi
     start_again();
     world_->undo_step();
     driven = solve(candidates, h);
-    sound = admissible_fraction(candidates, driven, h);
+    admissible = admissible_fraction(candidates, driven, h);
   }
-  if (sound < 1.0) {
-    const bool shortest = h <= shortest_piece_;
-    shorten(sound);
-    return shortest ? Piece::stuck : Piece::too_long;
+  if (admissible < 1.0) {
+    const bool is_min = h <= min_substep_;
+    shorten(admissible);
+    return is_min ? Result::stuck : Result::too_long;
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) take(*candidates[i].body, driven[i].contact_W);
   add_contacts();
-  return of_free < 1.0 || !world_->solved() ? Piece::gone_unsolved : Piece::gone;
+  return free_admissible < 1.0 || !world_->solved() ? Result::done_unsolved : Result::done;
 }
 
 std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<Candidate>& candidates, double h) {
@@ -150,30 +135,31 @@ std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<Ca
 
 double DynamicStepper::admissible_fraction(const std::vector<Candidate>& candidates,
                                            const std::vector<rigid_bodies::DrivenBody>& driven, double h) const {
-  double sound = 1.0;
+  double admissible = 1.0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     bodies::SteppedBody& body = *candidates[i].body;
     if (!is_zero(driven[i].impact_W)) body.add_impulse(driven[i].impact_W);
     if (!body.advance(h, driven[i].contact_W) || !bodies::is_finite(body.object())) return 0.0;
-    sound = std::min(sound, world_->admissible_fraction(body.index(), candidates[i].begin.X, body.object().X));
+    admissible =
+        std::min(admissible, world_->admissible_fraction(body.index(), candidates[i].begin.X, body.object().X));
   }
-  return sound;
+  return admissible;
 }
 
-double DynamicStepper::foreseen_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const {
-  double sound = 1.0;
+double DynamicStepper::predicted_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const {
+  double admissible = 1.0;
   for (const rigid_bodies::DrivenBody& d : driven) {
     Vector6d path = to_vector(d.displacement_W);
     path += d.compliance * to_vector(d.contact_W) + d.displacement_by_impulse * to_vector(d.impact_W);
     RigidTransform end = d.X_WO;
     end.translation() += path.head<3>();
     end.linear() = math::exp_so3(path.tail<3>()) * d.X_WO.linear();
-    sound = std::min(sound, world_->admissible_fraction(d.body, d.X_WO, end));
+    admissible = std::min(admissible, world_->admissible_fraction(d.body, d.X_WO, end));
   }
-  return sound;
+  return admissible;
 }
 
-void DynamicStepper::hold_back(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome) {
+void DynamicStepper::block(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome) {
   std::vector<rigid_bodies::DrivenBody> driven(held.size());
   for (std::size_t i = 0; i < held.size(); ++i) {
     driven[i].body = held[i]->index();
@@ -201,7 +187,7 @@ rigid_bodies::DrivenBody DynamicStepper::driven_body(const Candidate& c, double 
   d.body = c.body->index();
   d.X_WO = c.begin.X;
   d.V_WO_W = c.begin.velocity;
-  d.compliance = positive(response.displacement);
+  d.compliance = 0.5 * (response.displacement + response.displacement.transpose());
   d.mobility = c.body->mobility();
   d.displacement_by_impulse = response.by_impulse;
   const Vector6d by_load = d.compliance * to_vector(c.load_W) + d.displacement_by_impulse * to_vector(c.impact_W);
@@ -238,7 +224,7 @@ bool DynamicStepper::others_awake() const {
   });
 }
 
-bool DynamicStepper::comes_first(std::size_t body, std::size_t other) const {
+bool DynamicStepper::has_priority(std::size_t body, std::size_t other) const {
   const auto rank = [&](std::size_t b) {
     if (b == rigid_bodies::RigidWorld::bench || !scene_.bodies[b].movable) return 2;
     return std::find(held_.begin(), held_.end(), b) != held_.end() ? 0 : 1;
@@ -249,7 +235,7 @@ bool DynamicStepper::comes_first(std::size_t body, std::size_t other) const {
 void DynamicStepper::add_contacts() {
   for (rigid_bodies::WorldContact& known : contacts_) known.depth = 0.0;
   for (rigid_bodies::WorldContact c : world_->contacts()) {
-    if (!comes_first(c.body, c.other)) {
+    if (!has_priority(c.body, c.other)) {
       std::swap(c.body, c.other);
       c.n_W = -c.n_W;
       c.impulse_W = -c.impulse_W;

@@ -31,8 +31,8 @@ class GivenBack {
     if (!(loads[i][0] > 0.0 && yields_[i] > 0.0)) return;
     const Eigen::Vector2d now = (slip + contacts_[i]->by(change)).tail<2>();
     Eigen::Vector2d across = loads[i].tail<2>() - now / yields_[i];
-    const double most = contacts_[i]->friction * loads[i][0];
-    across *= std::min(1.0, most / std::max(across.norm(), std::numeric_limits<double>::min()));
+    const double max_across = contacts_[i]->friction * loads[i][0];
+    across *= std::min(1.0, max_across / std::max(across.norm(), std::numeric_limits<double>::min()));
     add(i, Vector3d(0.0, across[0] - loads[i][1], across[1] - loads[i][2]));
   }
 
@@ -61,7 +61,7 @@ class GivenBack {
 void give_back(const std::vector<Eigen::MatrixXd>& responses, const std::vector<BouncingContact*>& contacts,
                std::vector<Vector6d>& change) {
   GivenBack back(responses, contacts);
-  for (int iteration = 0; iteration < most_slides; ++iteration) {
+  for (int iteration = 0; iteration < bounce_iterations; ++iteration) {
     for (std::size_t i = 0; i < contacts.size(); ++i) back.slide(i, contacts[i]->motion + contacts[i]->by(change));
   }
   double lost = 0.0, slope = 0.0, curvature = 0.0;  // `lost` is a change, not above 0

@@ -8,19 +8,24 @@ namespace spring_workbench::friction {
 
 /// Smallest part of the trace of a contact's response that counts as a response. Larger: contacts of nearly rigid
 /// bodies get no load. Test: none: no value tried makes one fail.
-constexpr double least_response = 1e-12;
+constexpr double min_response = 1e-12;
+/// Largest residual that is sufficient, as a fraction of the largest motion without loads. Larger: loads are as much
+/// less exact where bodies hardly move, as in a short step. Test: ContactProblem.AShortStepIsSolvedAsWellAsALongOne
+/// at 1.
+constexpr double sufficient_share = 0.01;
 /// Gauss–Seidel iterations between two checks of the residual. Fewer: all contacts are solved together although
 /// iterations would do. Test: ContactProblem.AnEvenRowOfBoxesTakesIterationsAlone at 1.
-constexpr int most_iterations = 10;
-/// Ratio by which these iterations must reduce the residual for as many more to follow. Larger: iterations that hardly
-/// converge are continued. Test: none: costs alone.
+constexpr int check_iterations = 10;
+/// Ratio by which these iterations must reduce the residual for as many more to follow, and by which loads that do not
+/// solve the problem must reduce it to be taken. Larger: iterations that hardly converge are continued, and infeasible
+/// problems get large loads. Test: ContactProblem.WallsThatLeaveNoRoomAreNotPressedApart at 1.
 constexpr double worthwhile_reduction = 0.3;
 /// Number of bodies above which factorising costs more than the finer residual is worth. Test: none: costs alone.
-constexpr std::size_t many_bodies = 200;
+constexpr std::size_t max_bodies_factorised = 200;
 /// Alternations for the finer residual, and for the one that is sufficient; alternations between two checks of the
 /// residual, and between two changes of the penalty; depth of the Anderson acceleration. Fewer: Newton's method, which
 /// factorises in each iteration, is needed more often. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
-constexpr int most_alternations = 60, most_alternations_unsolved = 120, check_every = 5, penalty_every = 20,
+constexpr int max_alternations = 60, max_alternations_unsolved = 120, check_every = 5, penalty_every = 20,
               anderson_depth = 5;
 /// Ratio of the primal to the dual residual above which the penalty is adapted; growth of an accelerated step above
 /// which it is discarded. Larger: slower convergence. Test: ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at
@@ -29,13 +34,17 @@ constexpr double penalty_imbalance = 5.0, divergence_ratio = 1.5;
 /// Penalty of Newton's method for contacts whose mean response is scaled to 1: initial value, growth from one set of
 /// loads to the next, largest value; ratio of successive residuals above which a round counts as stalled. Test:
 /// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1e-9.
-constexpr double first_penalty = 100.0, penalty_growth = 10.0, largest_penalty = 1e10, stalled_ratio = 0.99;
+constexpr double initial_penalty = 100.0, penalty_growth = 10.0, max_penalty = 1e10, stalled_ratio = 0.99;
 /// Sets of loads about which Newton's method linearises; successive stalled rounds after which the problem counts as
-/// infeasible, as between walls that leave no room; iterations about each set; halvings of each iteration's step. Test:
-/// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 0.
-constexpr int most_rounds = 20, most_stalled_rounds = 8, most_newton_iterations = 20, most_halvings = 8;
+/// infeasible, as between walls that leave no room; iterations about each set in which the residual does not fall;
+/// halvings of each iteration's step. Test: ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 0.
+constexpr int max_rounds = 20, max_stalled_rounds = 8, max_newton_iterations = 20, max_halvings = 8;
+/// Share of the residual that a step of Newton's method must take away, for the step to be taken whole, and for the
+/// iteration not to count. Larger: shorter steps, and fewer of them. Test:
+/// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1.
+constexpr double sufficient_decrease = 0.1;
 /// Gauss–Seidel iterations for the friction of what bounces. Fewer: it takes less energy than it could. Test:
 /// RigidWorld.ARodThatBouncesOnAnEdgeKeepsPoissonsLaw at 0.
-constexpr int most_slides = 20;
+constexpr int bounce_iterations = 20;
 
 }  // namespace spring_workbench::friction

@@ -37,16 +37,16 @@ ContactProblem::Result ContactProblem::solve(double share, double enough) {
   Result result;
   const double largest = contacts.prepare();
   const double wanted = std::clamp(share * largest, 1e-3 * enough, 0.1 * enough);
-  enough = std::max(wanted, std::min(enough, 0.01 * largest));
-  const bool many = contacts.bodies().size() > many_bodies;
+  enough = std::max(wanted, std::min(enough, sufficient_share * largest));
+  const bool many = contacts.bodies().size() > max_bodies_factorised;
   double before = std::numeric_limits<double>::infinity();
   for (bool go_on = true; go_on;) {
     ++result.iterations;
-    const double met = contacts.iterate();
-    if (met <= wanted) break;
-    if (result.iterations % most_iterations != 0) continue;
-    go_on = met < worthwhile_reduction * before;
-    before = met;
+    result.residual = contacts.iterate();
+    if (result.residual <= wanted) return result;
+    if (result.iterations % check_iterations != 0) continue;
+    go_on = result.residual < worthwhile_reduction * before;
+    before = result.residual;
   }
   result.residual = contacts.residual();
   if (!(result.residual < std::numeric_limits<double>::infinity())) {

@@ -88,7 +88,8 @@ void JointSolution::each(const Function& function) const {
 double JointSolution::offer(const VectorXd& loads) {
   contacts_->set_loads(loads);
   const double residual = contacts_->residual();
-  if (residual < result_->residual) {
+  const double most = residual <= enough_ ? 1.0 : worthwhile_reduction;
+  if (residual < most * result_->residual) {
     result_->residual = residual;
     best_ = loads;
   }
@@ -156,7 +157,7 @@ bool JointSolution::adapt_penalty(Alternation& at, const VectorXd& last_motion, 
 }
 
 double JointSolution::target_residual(int alternation) const {
-  return alternation < most_alternations ? wanted_ : enough_;
+  return alternation < max_alternations ? wanted_ : enough_;
 }
 
 void JointSolution::alternate() {
@@ -172,7 +173,7 @@ void JointSolution::alternate() {
   Acceleration acceleration;
   VectorXd plain, last_motion = at.z, reduced;
   double last = infinity;
-  for (int k = 0; k < most_alternations_unsolved && result_->residual > target_residual(k); ++k) {
+  for (int k = 0; k < max_alternations_unsolved && result_->residual > target_residual(k); ++k) {
     ++result_->iterations;
     each([&](const auto& c, Index i) {
       at.z.segment<3>(i) = at.w.segment<3>(i) + into_cone(-at.w.segment<3>(i), c.friction);
@@ -225,22 +226,28 @@ VectorXd JointSolution::newton_residual(const VectorXd& reduced, VectorXd& loads
 
 bool JointSolution::iterate_newton(VectorXd& reduced, VectorXd& loads) {
   std::vector<Matrix3d> slopes(contacts_->contacts().size(), Matrix3d::Zero());
-  for (int k = 0; k < most_newton_iterations; ++k) {
+  double smallest = infinity;
+  for (int k = 0; k < max_newton_iterations; ++k) {
     const VectorXd rest = newton_residual(reduced, loads, &slopes);
     const double size = rest.norm();
     if (!(size < infinity)) return false;
-    if (size <= 1e-13 * reduced.norm()) return true;
+    if (size <= 1e-13 * std::max(reduced.norm(), loads.norm())) return true;  // the rest is rounding
+    const bool converges = size <= (1.0 - sufficient_decrease) * smallest;
+    if (converges) {
+      smallest = size;
+      k = 0;
+    }
     ++result_->factors;
     if (!factor_.factorize_nonsymmetric(*contacts_, slopes)) return false;
     const VectorXd step = factor_.solve_nonsymmetric(rest);
     VectorXd nearest = reduced - step;
-    double least = newton_residual(nearest, loads, nullptr).norm(), share = 1.0;
-    for (int half = 0; half < most_halvings && !(least <= (1.0 - 0.1 * share) * size); ++half) {
+    double min_size = newton_residual(nearest, loads, nullptr).norm(), share = 1.0;
+    for (int half = 0; half < max_halvings && !(min_size <= (1.0 - sufficient_decrease * share) * size); ++half) {
       share *= 0.5;
       const VectorXd tried = reduced - share * step;
       const double size_tried = newton_residual(tried, loads, nullptr).norm();
-      if (!(size_tried < least)) continue;
-      least = size_tried;
+      if (!(size_tried < min_size)) continue;
+      min_size = size_tried;
       nearest = tried;
     }
     reduced = nearest;
@@ -251,20 +258,22 @@ bool JointSolution::iterate_newton(VectorXd& reduced, VectorXd& loads) {
 
 void JointSolution::linearise() {
   loads_ = best_;
-  penalty_ = first_penalty;
+  penalty_ = initial_penalty;
+  double smallest = result_->residual;
   int stalled = 0;
-  for (int k = 0; k < most_rounds && stalled < most_stalled_rounds && result_->residual > enough_; ++k) {
-    const double before = result_->residual;
+  for (int k = 0; k < max_rounds && stalled < max_stalled_rounds && smallest > enough_; ++k) {
     contacts_->set_loads(loads_);
     VectorXd reduced = contacts_->reduced(), loads = VectorXd::Zero(loads_.size());
     if (!iterate_newton(reduced, loads)) return;
-    if (offer(loads) <= 2.0 * result_->residual) {
+    const double residual = offer(loads);
+    stalled = residual <= stalled_ratio * smallest ? 0 : stalled + 1;
+    smallest = std::min(smallest, residual);
+    if (residual <= 2.0 * smallest) {
       loads_ = loads;
-      penalty_ = std::min(penalty_growth * penalty_, largest_penalty);
+      penalty_ = std::min(penalty_growth * penalty_, max_penalty);
     } else {
       penalty_ /= penalty_growth;
     }
-    stalled = result_->residual > stalled_ratio * before ? stalled + 1 : 0;
   }
 }
 

@@ -15,7 +15,8 @@ class JointSolution {
 
  private:
   struct Alternation;
-  /// Takes the loads if they are better than the best so far; returns their residual.
+  /// Takes the loads if they solve the problem better than the best so far, or, while none do, if their residual is
+  /// much smaller: those of an infeasible problem grow with the penalty while it stalls. Returns their residual.
   double offer(const Eigen::VectorXd& loads);
   double target_residual(int alternation) const;
   bool factorize(double penalty);

@@ -1,9 +1,10 @@
 #include "reduced_contacts.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "constants.h"
 
@@ -14,6 +15,20 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Calls `function` with a size, which is a constant for rigid bodies.
+template <typename Function>
+void with_size(Index size, const Function& function) {
+  if (size == 6) {
+    function(std::integral_constant<int, 6>());
+  } else {
+    function(std::integral_constant<int, Eigen::Dynamic>());
+  }
+}
+
+}  // namespace
 
 Vector3d into_cone(const Vector3d& x, double friction) {
   const double across = x.tail<2>().norm();
@@ -35,16 +50,23 @@ void ReducedContacts::clear() {
 
 std::size_t ReducedContacts::add_body(const Eigen::Ref<const MatrixXd>& response) {
   const Index n = response.rows();
-  // Pivoted, so that what gives way little, or not at all, is found with full relative accuracy.
-  const Eigen::LDLT<MatrixXd> ldlt(response);
-  const VectorXd d = ldlt.vectorD().cwiseMax(0.0);
-  Index size = 0;
-  while (size < n && d[size] > 0.0) ++size;
-  bodies_.push_back({size_, size, n, factors_.size()});
-  size_ += size;
-  MatrixXd factor = MatrixXd(ldlt.matrixL()).leftCols(size) * d.head(size).cwiseSqrt().asDiagonal();
-  factor = ldlt.transpositionsP().transpose() * factor;
-  factors_.insert(factors_.end(), factor.data(), factor.data() + factor.size());
+  Body& body = bodies_.emplace_back(Body{size_, 0, n, factors_.size()});
+  factors_.resize(body.factor + static_cast<std::size_t>(n * n));
+  with_size(n, [&](auto size) {
+    // Cholesky's factor, without the columns of what does not respond: what is left of it is rounding.
+    using Square = Eigen::Matrix<double, size(), size()>;
+    Eigen::Map<Square> factor(&factors_[body.factor], n, n);
+    Square left = response;
+    for (Index k = 0; k < n; ++k) {
+      const double pivot = left(k, k);
+      if (!(pivot > static_cast<double>(n) * std::numeric_limits<double>::epsilon() * response(k, k))) continue;
+      auto column = factor.col(body.size++);
+      column.setZero();
+      column.tail(n - k) = left.col(k).tail(n - k) / std::sqrt(pivot);
+      for (Index i = k + 1; i < n; ++i) left.col(i).tail(n - i) -= column[i] * column.tail(n - i);
+    }
+  });
+  size_ += body.size;
   return bodies_.size() - 1;
 }
 
@@ -57,44 +79,63 @@ std::size_t ReducedContacts::add_contact(double friction, const Vector3d& motion
 void ReducedContacts::add_part(std::size_t body, const Eigen::Ref<const Eigen::Matrix3Xd>& jacobian) {
   const Body& b = bodies_[body];
   if (b.size == 0) return;
-  parts_.push_back({body, b.first, b.size, jacobians_.size()});
-  contacts_.back().parts_end = parts_.size();
-  jacobians_.resize(jacobians_.size() + static_cast<std::size_t>(3 * b.size));
-  Eigen::Map<Eigen::Matrix3Xd>(jacobians_.data() + parts_.back().jacobian, 3, b.size).noalias() =
-      jacobian.lazyProduct(Eigen::Map<const MatrixXd>(factors_.data() + b.factor, b.dofs, b.size));
+  Contact& contact = contacts_.back();
+  auto part = std::find_if(parts_.begin() + static_cast<std::ptrdiff_t>(contact.parts_begin), parts_.end(),
+                           [&](const Part& p) { return p.body == body; });
+  if (part == parts_.end()) {
+    part = parts_.insert(part, {body, b.first, b.size, jacobians_.size()});
+    contact.parts_end = parts_.size();
+    jacobians_.resize(jacobians_.size() + static_cast<std::size_t>(3 * b.size));
+  }
+  const double* const factor = factors_.data() + b.factor;
+  double* const J = jacobians_.data() + part->jacobian;
+  if (b.dofs == 6 && b.size == 6) {
+    const Eigen::Matrix<double, 3, 6> own = jacobian;
+    Eigen::Map<Eigen::Matrix<double, 3, 6>>(J) +=
+        own.lazyProduct(Eigen::Map<const Eigen::Matrix<double, 6, 6>>(factor));
+  } else {
+    Eigen::Map<Eigen::Matrix3Xd>(J, 3, b.size) +=
+        jacobian.lazyProduct(Eigen::Map<const MatrixXd>(factor, b.dofs, b.size));
+  }
 }
 
 Vector3d ReducedContacts::change(const Contact& contact, const VectorXd& reduced) const {
   Vector3d u = Vector3d::Zero();
   for (std::size_t p = contact.parts_begin; p < contact.parts_end; ++p) {
-    const double* J = jacobians_.data() + parts_[p].jacobian;
-    const double* v = reduced.data() + parts_[p].first;
-    for (Index k = 0; k < parts_[p].size; ++k, J += 3) u += v[k] * Eigen::Map<const Vector3d>(J);
+    with_size(parts_[p].size, [&](auto size) {
+      const Eigen::Map<const Eigen::Matrix<double, 3, size()>> J(jacobians_.data() + parts_[p].jacobian, 3,
+                                                                 parts_[p].size);
+      u += J.lazyProduct(
+          Eigen::Map<const Eigen::Matrix<double, size(), 1>>(reduced.data() + parts_[p].first, parts_[p].size));
+    });
   }
   return u;
 }
 
 void ReducedContacts::apply(const Contact& contact, const Vector3d& load, VectorXd& reduced) const {
   for (std::size_t p = contact.parts_begin; p < contact.parts_end; ++p) {
-    const double* J = jacobians_.data() + parts_[p].jacobian;
-    double* v = reduced.data() + parts_[p].first;
-    for (Index k = 0; k < parts_[p].size; ++k, J += 3) v[k] += load.dot(Eigen::Map<const Vector3d>(J));
+    with_size(parts_[p].size, [&](auto size) {
+      const Eigen::Map<const Eigen::Matrix<double, 3, size()>> J(jacobians_.data() + parts_[p].jacobian, 3,
+                                                                 parts_[p].size);
+      Eigen::Map<Eigen::Matrix<double, size(), 1>>(reduced.data() + parts_[p].first, parts_[p].size) +=
+          J.transpose().lazyProduct(load);
+    });
   }
 }
 
 double ReducedContacts::prepare() {
   double largest = 0.0;
   reduced_.setZero(size_);
-  VectorXd of_load = VectorXd::Zero(size_);
   for (Contact& c : contacts_) {
-    for (Index k = 0; k < 3; ++k) {  // column by column, since two parts may be of one body
-      apply(c, Vector3d::Unit(k), of_load);
-      c.response.col(k) = change(c, of_load);
-      for (std::size_t p = c.parts_begin; p < c.parts_end; ++p)
-        of_load.segment(parts_[p].first, parts_[p].size).setZero();
+    for (std::size_t p = c.parts_begin; p < c.parts_end; ++p) {
+      with_size(parts_[p].size, [&](auto size) {
+        const Eigen::Map<const Eigen::Matrix<double, 3, size()>> J(jacobians_.data() + parts_[p].jacobian, 3,
+                                                                   parts_[p].size);
+        c.response += J.lazyProduct(J.transpose());
+      });
     }
     const double trace = c.response.trace();
-    const bool complies = trace > 0.0 && c.response(0, 0) > least_response * trace;
+    const bool complies = trace > 0.0 && c.response(0, 0) > min_response * trace;
     c.scale = complies ? std::sqrt(3.0 / trace) : 0.0;
     if (!complies) {
       c.load.setZero();
@@ -105,9 +146,10 @@ double ReducedContacts::prepare() {
     c.response *= c.scale * c.scale;
     const double mean = 0.5 * (c.response(1, 1) + c.response(2, 2));
     c.across = mean + std::hypot(0.5 * (c.response(1, 1) - c.response(2, 2)), c.response(1, 2));
-    c.inverse.setZero();
-    const Eigen::LLT<Matrix3d> llt(c.response);
-    if (llt.info() == Eigen::Success && llt.rcond() > least_response) c.inverse = llt.solve(Matrix3d::Identity());
+    double determinant = 0.0;
+    bool is_regular = false;
+    c.response.computeInverseAndDetWithCheck(c.inverse, determinant, is_regular, min_response);
+    if (!is_regular) c.inverse.setZero();
     c.motion *= c.scale;
     c.load = into_cone(c.load / c.scale, c.friction);
     for (std::size_t p = c.parts_begin; p < c.parts_end; ++p)
@@ -123,7 +165,7 @@ double ReducedContacts::relax(Contact& c) {
   shifted[0] += shift(u, c.friction);
   const double off = (c.load - into_cone(c.load - shifted, c.friction)).norm() / c.scale;
   Vector3d load = c.load - c.inverse * u;
-  const bool sticks = c.inverse(0, 0) > 0.0 && load.tail<2>().norm() <= c.friction * load[0];
+  const bool sticks = c.inverse(0, 0) > 0.0 && load[0] > 0.0 && load.tail<2>().norm() <= c.friction * load[0];
   if (!sticks) {
     load = c.load;
     load[0] = std::max(0.0, load[0] - u[0] / c.response(0, 0));
@@ -133,8 +175,8 @@ double ReducedContacts::relax(Contact& c) {
     } else {
       load.tail<2>().setZero();
     }
-    const double most = c.friction * load[0], across = load.tail<2>().norm();
-    if (across > most) load.tail<2>() *= most / across;
+    const double max_across = c.friction * load[0], across = load.tail<2>().norm();
+    if (across > max_across) load.tail<2>() *= max_across / across;
   }
   apply(c, load - c.load, reduced_);
   c.load = load;
@@ -145,8 +187,9 @@ double ReducedContacts::iterate() {
   double worst = 0.0;
   for (auto c = contacts_.begin(); c != contacts_.end(); ++c)
     if (c->scale > 0.0) worst = std::max(worst, relax(*c));
-  for (auto c = contacts_.rbegin(); c != contacts_.rend(); ++c)
-    if (c->scale > 0.0) worst = std::max(worst, relax(*c));
+  // And back; the last and the first have just been, or will be, relaxed.
+  for (std::size_t i = contacts_.size(); i-- > 2;)
+    if (contacts_[i - 1].scale > 0.0) worst = std::max(worst, relax(contacts_[i - 1]));
   return worst;
 }
 

@@ -47,7 +47,7 @@ class ReducedContacts {
   /// motion of a contact that can be moved, without loads; infinite if one is not finite.
   double prepare();
 
-  /// One symmetric Gauss–Seidel iteration; returns the largest residual met on the way.
+  /// One symmetric Gauss–Seidel iteration; returns the largest residual met.
   double iterate();
   /// See ContactProblem::Result.
   double residual() const;

@@ -23,7 +23,7 @@ void look(const OutlineBox& a, const OutlineBox& b, const Vector3d& axis, int of
   if (gap > best.gap) best = {gap, axis / (apart < 0.0 ? -size : size), of_a, of_b};
 }
 
-/// Clips the polygon to the half-space `n · x ≤ most`.
+/// Clips the polygon to the half-space `n · x ≤ limit`.
 void clip(std::vector<Vector3d>& polygon, const Vector3d& n_W, double limit) {
   std::vector<Vector3d> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -8,24 +8,24 @@
 namespace spring_workbench::geometry {
 namespace {
 
-/// Returns the largest f ≤ `longest` up to which a + b f − ½ c f² is not negative; c ≥ 0.
-double positive_until(double a, double b, double c, double longest) {
-  if (a + longest * (b - 0.5 * c * longest) >= 0.0 && a >= 0.0) return longest;
+/// Returns the largest f ≤ `limit` up to which a + b f − ½ c f² is not negative; c ≥ 0.
+double positive_until(double a, double b, double c, double limit) {
+  if (a + limit * (b - 0.5 * c * limit) >= 0.0 && a >= 0.0) return limit;
   if (a <= 0.0) return 0.0;
   const double root = std::sqrt(b * b + 2.0 * c * a);
   return b < 0.0 ? 2.0 * a / (root - b) : (b + root) / c;
 }
 
 /// The separating plane moves with the box `own`; the corners are those of the other box.
-double clear_of_corners(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
-                        const Vector3d& n_W, double tolerance, double longest) {
+double free_fraction_to_corners(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
+                                const Vector3d& n_W, double tolerance, double limit) {
   const double lowest = n_W.dot(own.X.translation() - motion.p_WO) - reach(own, n_W);
   const Vector3d n_rate = motion.turn_W.cross(n_W);
-  double clear = longest;
+  double clear = limit;
   for (const Vector3d& p : corners(other.half)) {
     const Vector3d corner = other.X * p;
     const Vector3d above = motion.p_WO - corner;
-    const double furthest = above.norm() + longest * motion.move_W.norm();
+    const double furthest = above.norm() + limit * motion.move_W.norm();
     const double bend = n_rate.norm() * (motion.turn_W.norm() * furthest + 2.0 * motion.move_W.norm());
     clear =
         positive_until(n_W.dot(above) + lowest + tolerance, n_rate.dot(above) + n_W.dot(motion.move_W), bend, clear);
@@ -35,10 +35,10 @@ double clear_of_corners(const OutlineBox& own, const StraightMotion& motion, con
 
 }  // namespace
 
-double clear_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below, double tolerance,
-                   double longest) {
+double free_fraction_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below,
+                           double tolerance, double limit) {
   const double across = below.n_W.cross(motion.turn_W).norm();
-  double clear = longest;
+  double clear = limit;
   for (const Vector3d& p : corners(own.half)) {
     const Vector3d corner = own.X * p;
     const Vector3d by_turning = motion.turn_W.cross(corner - motion.p_WO);
@@ -49,13 +49,13 @@ double clear_above(const OutlineBox& own, const StraightMotion& motion, const Ha
   return clear;
 }
 
-double clear_of(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
-                double longest) {
+double free_fraction_to(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
+                        double limit) {
   const Vector3d n_W = gap_between(own, other).n_W;
   const double top = n_W.dot(other.X.translation()) + reach(other, n_W);
-  const double clear = clear_above(own, motion, {n_W, top}, tolerance, longest);
-  if (clear >= longest) return clear;
-  return std::max(clear, clear_of_corners(own, motion, other, n_W, tolerance, longest));
+  const double clear = free_fraction_above(own, motion, {n_W, top}, tolerance, limit);
+  if (clear >= limit) return clear;
+  return std::max(clear, free_fraction_to_corners(own, motion, other, n_W, tolerance, limit));
 }
 
 }  // namespace spring_workbench::geometry

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "constants.h"
+#include "sphere_contacts.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/geometry/surface.h"
 
@@ -59,24 +60,11 @@ using Extent = Eigen::AlignedBox3d;
 template <typename Part, typename ExtentOf>
 std::vector<std::pair<std::size_t, std::size_t>> pairs_near(const View& view, const std::vector<Part>& a,
                                                             const ExtentOf& extent_of, const PartTree& b) {
-  struct Near {
-    const PartTree& b;
-    Extent own;
-    std::vector<std::size_t> found;
-    bool intersectVolume(const Extent& other) const { return own.intersects(other); }
-    bool intersectObject(int other) {
-      const auto i = static_cast<std::size_t>(other);
-      if (own.intersects(b.boxes[i])) found.push_back(i);
-      return false;
-    }
-  } near{b, {}, {}};
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i < a.size() && b.tree; ++i) {
-    near.own = grown(extent_of(a[i]), std::max(view.reach, view.deepest));
-    if (!near.own.intersects(view.b.extent)) continue;
-    near.found.clear();
-    Eigen::BVIntersect(*b.tree, near);
-    for (const std::size_t k : near.found) pairs.emplace_back(i, k);
+    const Extent own = grown(extent_of(a[i]), std::max(view.reach, view.deepest));
+    if (!own.intersects(view.b.extent)) continue;
+    for (const std::size_t k : b.inside(own)) pairs.emplace_back(i, k);
   }
   return pairs;
 }
@@ -140,13 +128,13 @@ void point_and_cylinder(const View& view, const Vector3d& p, const IsLow& is_low
 /// Whether a face extends to an end of the cylinder `a`, where all its lowest points are.
 bool is_near_rims(const View& view, const Solid::Face& face) {
   const double end = 0.5 * view.a.cylinder->length + view.reach;
-  double least = end, most = -end;
+  double min = end, max = -end;
   for (const Vector3d& corner : face.corners) {
     const double z = view.X_BA.linear().col(2).dot(corner - view.X_BA.translation());
-    least = std::min(least, z);
-    most = std::max(most, z);
+    min = std::min(min, z);
+    max = std::max(max, z);
   }
-  return most >= end - 2.0 * view.reach || least <= 2.0 * view.reach - end;
+  return max >= end - 2.0 * view.reach || min <= 2.0 * view.reach - end;
 }
 
 void points_and_faces(const View& view) {
@@ -271,11 +259,12 @@ bool is_contained(const View& view) {
   return contains(view.b.geometry, view.X_BA * furthest(view.a, Vector3d::UnitX()));
 }
 
-void append(const std::vector<BoxContact>& found, const RigidTransform& X, bool turned,
+void append(const std::vector<BoxContact>& found, const RigidTransform& X, bool swap_bodies,
             std::vector<BoxContact>& contacts) {
   for (const BoxContact& c : found) {
     const Vector3d n = X.linear() * c.n_W;
-    contacts.push_back({X * Vector3d(turned ? c.p_W + c.gap * c.n_W : c.p_W), turned ? Vector3d(-n) : n, c.gap});
+    contacts.push_back(
+        {X * Vector3d(swap_bodies ? c.p_W + c.gap * c.n_W : c.p_W), swap_bodies ? Vector3d(-n) : n, c.gap});
   }
 }
 
@@ -293,7 +282,24 @@ void PartTree::build() {
   tree = std::make_unique<const Eigen::KdBVH<double, 3, int>>(parts.begin(), parts.end(), around.begin(), around.end());
 }
 
+std::vector<std::size_t> PartTree::inside(const Eigen::AlignedBox3d& box) const {
+  struct Inside {
+    const std::vector<Eigen::AlignedBox3d>& boxes;
+    const Eigen::AlignedBox3d& box;
+    std::vector<std::size_t> found;
+    bool intersectVolume(const Eigen::AlignedBox3d& other) const { return box.intersects(other); }
+    bool intersectObject(int part) {
+      const auto i = static_cast<std::size_t>(part);
+      if (box.intersects(boxes[i])) found.push_back(i);
+      return false;
+    }
+  } inside{boxes, box, {}};
+  if (tree) Eigen::BVIntersect(*tree, inside);
+  return inside.found;
+}
+
 Solid::Solid(const Geometry& of) : geometry(of), extent(bounding_box(of)) {
+  if (std::holds_alternative<Sphere>(of)) return;
   if (const auto* round = std::get_if<Cylinder>(&of)) cylinder = *round;
   const std::shared_ptr<const Surface> surface = make_surface(of);
   for (std::size_t i = 0; i < surface->normals.size(); ++i) {
@@ -326,6 +332,7 @@ Solid::Solid(const Geometry& of) : geometry(of), extent(bounding_box(of)) {
 }
 
 Vector3d furthest(const Solid& solid, const Vector3d& along_S) {
+  if (const auto* sphere = std::get_if<Sphere>(&solid.geometry)) return sphere->radius * along_S.normalized();
   if (!solid.cylinder) {
     return *std::max_element(solid.corners.begin(), solid.corners.end(),
                              [&](const Vector3d& a, const Vector3d& b) { return a.dot(along_S) < b.dot(along_S); });
@@ -337,6 +344,7 @@ Vector3d furthest(const Solid& solid, const Vector3d& along_S) {
 }
 
 std::vector<Vector3d> lowest_points(const Solid& solid, const Vector3d& n_S) {
+  if (std::holds_alternative<Sphere>(solid.geometry)) return {furthest(solid, -n_S)};
   const Vector3d u = n_S.unitOrthogonal();
   std::vector<Vector3d> points;
   for (int i = 0; i <= 8; ++i) {
@@ -350,7 +358,16 @@ std::vector<Vector3d> lowest_points(const Solid& solid, const Vector3d& n_S) {
 std::vector<BoxContact> solid_contacts(const Solid& a, const RigidTransform& X_WA, const Solid& b,
                                        const RigidTransform& X_WB, double reach, double deepest) {
   const RigidTransform X_BA = X_WB.inverse() * X_WA, X_AB = X_BA.inverse();
-  std::vector<BoxContact> of_a, of_b, contacts;
+  std::vector<BoxContact> contacts;
+  if (const auto* sphere = std::get_if<Sphere>(&a.geometry)) {
+    append(sphere_contacts(sphere->radius, X_BA.translation(), b, reach), X_WB, false, contacts);
+    return contacts;
+  }
+  if (std::holds_alternative<Sphere>(b.geometry)) {
+    append(solid_contacts(b, X_AB, a, RigidTransform::Identity(), reach, deepest), X_WA, true, contacts);
+    return contacts;
+  }
+  std::vector<BoxContact> of_a, of_b;
   const View from_b{a, b, X_BA, reach, deepest, of_a}, from_a{b, a, X_AB, reach, deepest, of_b};
   points_and_faces(from_b);
   points_and_faces(from_a);
@@ -363,32 +380,35 @@ std::vector<BoxContact> solid_contacts(const Solid& a, const RigidTransform& X_W
 }
 
 bool overlap(const Solid& a, const RigidTransform& X_WA, const Solid& b, const RigidTransform& X_WB) {
+  const auto is_sphere = [](const Solid& solid) { return std::holds_alternative<Sphere>(solid.geometry); };
+  if (is_sphere(a) || is_sphere(b)) return !solid_contacts(a, X_WA, b, X_WB, 0.0, 0.0).empty();
   const RigidTransform X_BA = X_WB.inverse() * X_WA, X_AB = X_BA.inverse();
   std::vector<BoxContact> none;
   const View from_b{a, b, X_BA, 0.0, 0.0, none}, from_a{b, a, X_AB, 0.0, 0.0, none};
   return pierces(from_b) || pierces(from_a) || is_contained(from_b) || is_contained(from_a);
 }
 
-std::optional<BoxContact> way_out(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
-                                  double within) {
+std::optional<BoxContact> exit_contact(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
+                                       double within) {
   std::optional<BoxContact> found;
-  const auto offer = [&](double way, const Vector3d& n) {
-    if (!(std::abs(way - depth) <= within)) return;
-    within = std::abs(way - depth);
-    const double gap = -way * n.dot(n_S);
+  const auto offer = [&](double distance, const Vector3d& n) {
+    if (!(std::abs(distance - depth) <= within)) return;
+    within = std::abs(distance - depth);
+    const double gap = -distance * n.dot(n_S);
     found = BoxContact{p_S - gap * n, n, gap};
   };
   for (const Solid::Face& face : solid.faces) {
     const double slope = face.n.dot(n_S);
     if (!(slope > 0.0)) continue;
-    const double way = face.n.dot(face.corners[0] - p_S) / slope;
-    if (over(face, p_S + way * n_S, same_place)) offer(way, face.n);
+    const double distance = face.n.dot(face.corners[0] - p_S) / slope;
+    if (over(face, p_S + distance * n_S, same_place)) offer(distance, face.n);
   }
   if (solid.cylinder) {
-    const double way = inside(*solid.cylinder, p_S, n_S).second;
-    const Vector3d out = p_S + way * n_S;
+    const double distance = inside(*solid.cylinder, p_S, n_S).second;
+    const Vector3d out = p_S + distance * n_S;
     const bool of_end = std::abs(std::abs(out.z()) - 0.5 * solid.cylinder->length) < same_place;
-    offer(way, of_end ? Vector3d(0.0, 0.0, std::copysign(1.0, out.z())) : Vector3d(out.x(), out.y(), 0.0).normalized());
+    offer(distance,
+          of_end ? Vector3d(0.0, 0.0, std::copysign(1.0, out.z())) : Vector3d(out.x(), out.y(), 0.0).normalized());
   }
   return found;
 }

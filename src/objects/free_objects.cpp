@@ -94,10 +94,10 @@ void FreeObjects::note(const contact::ContactOutcome& outcome, StepCounts& count
 }
 
 bool FreeObjects::carry(bodies::SteppedBody& stepped, std::size_t object, double h,
-                        const contact::ContactStepper::MayGo& may_go, StepCounts& counts) {
+                        const contact::ContactStepper::MotionCheck& is_allowed, StepCounts& counts) {
   contact::ContactOutcome outcome;
   if (contact_stepper_) {
-    if (!contact_stepper_->step(stepped, h, may_go, objects_[object].rows, outcome)) return false;
+    if (!contact_stepper_->step(stepped, h, is_allowed, objects_[object].rows, outcome)) return false;
   } else {
     stepped.save(start_);
     if (stepped.advance(h, Wrench())) {

@@ -159,7 +159,7 @@ bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::si
   if (!pairs_->step(pair, rows[0], outcome)) return false;
   ++counts.steps_among_movable;
   note(outcome, counts);
-  const std::array<std::vector<contact::ContactRow>, 2> told{outcome.rows, {}};
+  const std::array<std::vector<contact::ContactRow>, 2> reported{outcome.rows, {}};
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t o = both[i];
     if (o == other && sleeps && outcome.rows.empty()) continue;  // it stays asleep
@@ -172,7 +172,7 @@ bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::si
     states_[o].in_contact = !rows[0].empty();
     objects_[o].rows = rows[i];
     objects_[o].slow_since = now + h;
-    contacts_.note(o, states_[o], told[i], h);
+    contacts_.note(o, states_[o], reported[i], h);
     in_contact_.erase(o);
     stepped_objects.insert(o);
   }

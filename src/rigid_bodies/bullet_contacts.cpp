@@ -14,6 +14,7 @@
 
 #include "constants.h"
 #include "spring_workbench/geometry/solid_contacts.h"
+#include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
@@ -24,9 +25,11 @@ geometry::OutlineBox outline_of(const btCollisionObjectWrapper& object) {
   return {from_bullet(object.getWorldTransform()), half, true};
 }
 
-bool is_plane(const btCollisionObjectWrapper& object) {
-  return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
-}
+bool is(const btCollisionObjectWrapper& object, int type) { return object.getCollisionShape()->getShapeType() == type; }
+bool is_plane(const btCollisionObjectWrapper& object) { return is(object, STATIC_PLANE_PROXYTYPE); }
+bool is_box(const btCollisionObjectWrapper& object) { return is(object, BOX_SHAPE_PROXYTYPE); }
+bool is_sphere(const btCollisionObjectWrapper& object) { return is(object, SPHERE_SHAPE_PROXYTYPE); }
+bool is_mesh(const btCollisionObjectWrapper& object) { return is(object, CONVEX_HULL_SHAPE_PROXYTYPE); }
 
 const geometry::Solid& solid_of(const btCollisionObjectWrapper& object) {
   return *static_cast<const geometry::Solid*>(object.getCollisionShape()->getUserPointer());
@@ -54,7 +57,7 @@ std::vector<geometry::BoxContact> spanning(const std::vector<geometry::BoxContac
   return kept;
 }
 
-/// Contacts of a cylinder or a mesh above the half-space `n · x < height`.
+/// Contacts of a sphere, a cylinder or a mesh above the half-space `n · x < height`.
 std::vector<geometry::BoxContact> contacts_of_points(const btCollisionObjectWrapper& body, const Vector3d& n_W,
                                                      double height, double reach) {
   const RigidTransform X_WS = from_bullet(body.getWorldTransform());
@@ -69,7 +72,7 @@ std::vector<geometry::BoxContact> contacts_of_points(const btCollisionObjectWrap
 
 using Contacts = std::vector<geometry::BoxContact>;
 
-/// Contacts by their normals, those with the least gap first; some of each.
+/// Contacts by their normals, those with the smallest gap first; some of each.
 std::vector<Contacts> by_normal(Contacts contacts) {
   std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
   std::vector<Contacts> groups;
@@ -86,7 +89,7 @@ std::vector<Contacts> by_normal(Contacts contacts) {
   return groups;
 }
 
-geometry::BoxContact turned(const geometry::BoxContact& c) { return {c.p_W + c.gap * c.n_W, -c.n_W, c.gap}; }
+geometry::BoxContact swapped(const geometry::BoxContact& c) { return {c.p_W + c.gap * c.n_W, -c.n_W, c.gap}; }
 
 /// What has become of a contact, if it is deep, and none that was found pushes as far to that side: it goes on where it
 /// is, so that what is deeper than contacts are found is still pushed out where it went in.
@@ -104,26 +107,27 @@ std::optional<geometry::BoxContact> continued(const btManifoldPoint& before, con
   if (!(depth > deepest_on_path) || std::any_of(contacts.begin(), contacts.end(), replaces)) return {};
   const auto out_of = [&](const btCollisionObjectWrapper& object, const Vector3d& p_W, const Vector3d& out_W) {
     const RigidTransform X_WS = from_bullet(object.getWorldTransform());
-    auto c = geometry::way_out(solid_of(object), X_WS.inverse() * p_W, X_WS.linear().transpose() * out_W, depth,
-                               unswept_of_free);
+    auto c = geometry::exit_contact(solid_of(object), X_WS.inverse() * p_W, X_WS.linear().transpose() * out_W, depth,
+                                    unswept_of_free);
     if (c) *c = {X_WS * c->p_W, X_WS.linear() * c->n_W, c->gap};
     return c;
   };
   const auto of_b = out_of(b, on_a, n_W);
   const auto of_a = out_of(a, on_b, -n_W);
   if (!of_a || (of_b && std::abs(of_b->gap + depth) <= std::abs(of_a->gap + depth))) return of_b;
-  return turned(*of_a);
+  return swapped(*of_a);
 }
 
-/// The contacts of two solids, with what has become of those before. None that touches, though they overlap: as at the
-/// start of a scene; then the least deep normal of all, however deep. `lost`: there is not even that.
+/// The contacts of two solids, with those before that persist. None that touches, though they overlap: as at the
+/// start of a scene; then the shallowest normal of all, however deep. `missing`: there is not even that.
 std::vector<Contacts> contacts_between(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
-                                       double reach, const std::vector<btManifoldPoint>& before, bool& lost) {
+                                       double reach, const std::vector<btManifoldPoint>& before, bool& missing) {
   const RigidTransform X_WA = from_bullet(a.getWorldTransform()), X_WB = from_bullet(b.getWorldTransform());
-  const auto found = [&](double most, double deepest) {
-    return geometry::solid_contacts(solid_of(a), X_WA, solid_of(b), X_WB, most, deepest);
+  const auto found = [&](double margin, double deepest) {
+    return geometry::solid_contacts(solid_of(a), X_WA, solid_of(b), X_WB, margin, deepest);
   };
   Contacts contacts = found(reach, unswept_of_free);
+  if (is_sphere(a) || is_sphere(b)) return {contacts};
   Contacts deep;
   for (const btManifoldPoint& point : before) {
     if (const auto c = continued(point, contacts, a, b)) deep.push_back(*c);
@@ -132,7 +136,7 @@ std::vector<Contacts> contacts_between(const btCollisionObjectWrapper& a, const 
   const bool touch = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.gap < closed_gap; });
   if (touch || !geometry::overlap(solid_of(a), X_WA, solid_of(b), X_WB)) return by_normal(contacts);
   std::vector<Contacts> groups = by_normal(found(0.0, std::numeric_limits<double>::infinity()));
-  lost = groups.empty();
+  missing = groups.empty();
   if (groups.size() > 1) groups.erase(groups.begin(), groups.end() - 1);
   return groups;
 }
@@ -143,53 +147,79 @@ std::vector<geometry::BoxContact> contacts_above(const btCollisionObjectWrapper&
   const RigidTransform X_WP = from_bullet(plane.getWorldTransform());
   const Vector3d n_W = X_WP.linear() * from_bullet(shape.getPlaneNormal());
   const double height = n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin;
-  if (body.getCollisionShape()->getShapeType() == BOX_SHAPE_PROXYTYPE) {
+  if (is_box(body)) {
     return geometry::box_contacts(outline_of(body), n_W, height, reach);
   }
   return contacts_of_points(body, n_W, height, reach);
 }
 
-/// Contact margin of two bodies [m]: at least the approach of their points in a step, as seen from the other.
-double reach_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h) {
-  struct Moving {
-    Vector3d p = Vector3d::Zero(), v = p, w = p;
-    double radius = std::numeric_limits<double>::infinity();
-  };
-  const auto moving = [](const btCollisionObjectWrapper& object) {
+/// Straight motion of a body over a step; a point of it within `radius` of `p` [m].
+struct Moving {
+  Vector3d p = Vector3d::Zero(), v = p, w = p;
+  double radius = std::numeric_limits<double>::infinity();
+
+  explicit Moving(const btCollisionObjectWrapper& object) {
     const btCollisionObject& body = *object.getCollisionObject();
-    Moving m;
-    if (is_plane(object)) return m;
+    if (is_plane(object)) return;
     btVector3 centre;
-    body.getCollisionShape()->getBoundingSphere(centre, m.radius);
-    m.radius += centre.length();
-    m.p = from_bullet(body.getWorldTransform().getOrigin());
+    body.getCollisionShape()->getBoundingSphere(centre, radius);
+    radius += centre.length();
+    p = from_bullet(body.getWorldTransform().getOrigin());
     const btRigidBody* rigid = btRigidBody::upcast(&body);
-    if (rigid == nullptr || rigid->isStaticObject()) return m;
-    m.v = from_bullet(rigid->getLinearVelocity());
-    m.w = from_bullet(rigid->getAngularVelocity());
-    return m;
-  };
+    if (rigid == nullptr || rigid->isStaticObject()) return;
+    v = from_bullet(rigid->getLinearVelocity());
+    w = from_bullet(rigid->getAngularVelocity());
+  }
+  Vector3d at(const Vector3d& p_W) const { return v + w.cross(p_W - p); }
+  /// Pose of a part of the body after `h` [s].
+  RigidTransform moved(const RigidTransform& X_WS, double h) const {
+    const Matrix3d turn = math::exp_so3(h * w);
+    RigidTransform X = X_WS;
+    X.linear() = turn * X_WS.linear();
+    X.translation() = p + h * v + turn * (X_WS.translation() - p);
+    return X;
+  }
+};
+
+/// Contact margin of two bodies [m]: at least the approach of their points in a step, as seen from the other.
+double reach_of(const Moving& a, const Moving& b, double h) {
   const auto approach = [](const Moving& x, const Moving& y) {
     const Vector3d w = x.w - y.w;
     return (x.v - y.v - y.w.cross(x.p - y.p)).norm() + (w.isZero(0.0) ? 0.0 : x.radius * w.norm());
   };
-  const Moving of_a = moving(a), of_b = moving(b);
-  return std::max(contact_margin, h * std::min(approach(of_a, of_b), approach(of_b, of_a)));
+  return std::max(contact_margin, h * std::min(approach(a, b), approach(b, a)));
 }
 
-bool is_box(const btCollisionObjectWrapper& object) {
-  return object.getCollisionShape()->getShapeType() == BOX_SHAPE_PROXYTYPE;
+/// Turns the normals of open contacts that the solids' motion over `h` [s] would close although it leads past the
+/// other: to be perpendicular to the motion, if the planes there separate the solids all the time.
+void let_pass(const geometry::Solid& a, const RigidTransform& X_WA, const Moving& moving_a, const geometry::Solid& b,
+              const RigidTransform& X_WB, const Moving& moving_b, double h, Contacts& contacts) {
+  const auto support = [](const geometry::Solid& solid, const RigidTransform& X_WS, const Vector3d& n_W) -> Vector3d {
+    return X_WS * geometry::furthest(solid, X_WS.linear().transpose() * n_W);
+  };
+  for (geometry::BoxContact& c : contacts) {
+    const Vector3d motion = h * (moving_a.at(c.p_W) - moving_b.at(c.p_W));
+    if (!(c.gap > closed_gap && c.gap + c.n_W.dot(motion) < 0.0)) continue;
+    const Vector3d across = c.n_W - c.n_W.dot(motion) / motion.squaredNorm() * motion;
+    if (across.isZero(0.0)) continue;
+    const Vector3d n = across.normalized();
+    const Vector3d on_b = support(b, X_WB, n);
+    const double gap = n.dot(support(a, X_WA, -n) - on_b);
+    const double at_end = n.dot(support(a, moving_a.moved(X_WA, h), -n) - support(b, moving_b.moved(X_WB, h), n));
+    if (std::min(gap, at_end) > 0.0) c = {on_b, n, gap};
+  }
 }
 
-/// Contacts of shapes other than spheres with each other and with a plane, in either order, found anew in every step;
-/// each begins with the impulses of the one before that is nearest to it.
+/// Contacts of shapes with each other and with a plane, in either order, found again in every step; each begins with
+/// the impulses of the one before that is nearest to it.
 class SolidContacts final : public btActivatingCollisionAlgorithm {
  public:
   SolidContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
                 const btCollisionObjectWrapper* b)
       : btActivatingCollisionAlgorithm(info, a, b) {
-    const bool one_face = is_plane(*a) || is_plane(*b) || (is_box(*a) && is_box(*b));
-    for (std::size_t i = 0; i < (one_face ? 1 : most_manifolds); ++i) {
+    const bool one_face = is_plane(*a) || is_plane(*b) || (is_box(*a) && is_box(*b)) ||
+                          (is_sphere(*a) && !is_mesh(*b)) || (is_sphere(*b) && !is_mesh(*a));
+    for (std::size_t i = 0; i < (one_face ? 1 : max_manifolds); ++i) {
       manifolds_.push_back(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject()));
       manifolds_.back()->m_companionIdA = a->m_index;
       manifolds_.back()->m_companionIdB = b->m_index;
@@ -207,8 +237,14 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
       manifold->clearManifold();
     }
     result->setPersistentManifold(manifolds_.front());
+    const Moving moving_a(*a), moving_b(*b);
+    Contacts contacts = find(*a, *b, reach_of(moving_a, moving_b, info.m_timeStep), before);
+    if (!is_plane(*a) && !is_plane(*b)) {
+      let_pass(solid_of(*a), from_bullet(a->getWorldTransform()), moving_a, solid_of(*b),
+               from_bullet(b->getWorldTransform()), moving_b, info.m_timeStep, contacts);
+    }
     // Not by the result's own addContactPoint(), which takes near ones for one.
-    for (const geometry::BoxContact& c : find(*a, *b, reach_of(*a, *b, info.m_timeStep), before)) {
+    for (const geometry::BoxContact& c : contacts) {
       const auto free = std::find_if(manifolds_.begin(), manifolds_.end(), [](const btPersistentManifold* manifold) {
         return manifold->getNumContacts() < MANIFOLD_CACHE_SIZE;
       });
@@ -239,15 +275,15 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
     Contacts contacts;
     if (is_plane(a)) {
       contacts = contacts_above(b, a, reach);
-      for (geometry::BoxContact& c : contacts) c = turned(c);
+      for (geometry::BoxContact& c : contacts) c = swapped(c);
       return contacts;
     }
-    bool lost = false;
-    for (const Contacts& group : contacts_between(a, b, reach, before, lost)) {
+    bool missing = false;
+    for (const Contacts& group : contacts_between(a, b, reach, before, missing)) {
       contacts.insert(contacts.end(), group.begin(), group.end());
     }
     std::stable_sort(contacts.begin(), contacts.end(), [](const auto& x, const auto& y) { return x.gap < y.gap; });
-    miss(lost);
+    miss(missing);
     return contacts;
   }
   void miss(bool contact) const {
@@ -280,13 +316,14 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
 }  // namespace
 
 btCollisionAlgorithmCreateFunc* ContactConfiguration::getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) {
-  const auto is_solid = [](int proxy) {
-    return proxy == BOX_SHAPE_PROXYTYPE || proxy == CYLINDER_SHAPE_PROXYTYPE || proxy == CONVEX_HULL_SHAPE_PROXYTYPE ||
-           proxy == TRIANGLE_MESH_SHAPE_PROXYTYPE;
-  };
-  const auto is_known = [&](int proxy) { return is_solid(proxy) || proxy == STATIC_PLANE_PROXYTYPE; };
-  const bool round = proxy_a == CYLINDER_SHAPE_PROXYTYPE && proxy_b == CYLINDER_SHAPE_PROXYTYPE;
-  if (is_known(proxy_a) && is_known(proxy_b) && (is_solid(proxy_a) || is_solid(proxy_b)) && !round) return &create_;
+  // Of which only two cylinders have no contacts of ours.
+  if (proxy_a != proxy_b || proxy_a != CYLINDER_SHAPE_PROXYTYPE) {
+    const auto is_known = [](int proxy) {
+      return proxy == BOX_SHAPE_PROXYTYPE || proxy == SPHERE_SHAPE_PROXYTYPE || proxy == CYLINDER_SHAPE_PROXYTYPE ||
+             proxy == CONVEX_HULL_SHAPE_PROXYTYPE || proxy == STATIC_PLANE_PROXYTYPE;
+    };
+    if (is_known(proxy_a) && is_known(proxy_b)) return &create_;
+  }
   return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(proxy_a, proxy_b);
 }
 

@@ -13,11 +13,11 @@ template <typename Shape>
 class WithMargin final : public Shape {
  public:
   using Shape::Shape;
-  void getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const override {
-    Shape::getAabb(X_WS, least, most);
-    const btVector3 more(0.5 * contact_margin, 0.5 * contact_margin, 0.5 * contact_margin);
-    least -= more;
-    most += more;
+  void getAabb(const btTransform& X_WS, btVector3& min, btVector3& max) const override {
+    Shape::getAabb(X_WS, min, max);
+    const btVector3 margin(0.5 * contact_margin, 0.5 * contact_margin, 0.5 * contact_margin);
+    min -= margin;
+    max += margin;
   }
 };
 
@@ -34,9 +34,9 @@ class DispatcherForSleepers final : public btCollisionDispatcher {
   bool contacts_missing = false;  ///< shapes overlap without a contact, or there was no room for a closed one
 };
 
-/// Bullet's configuration, but for contacts of boxes, which are those of `box_contacts`, and of boxes, cylinders and
-/// meshes with each other and with planes, which are those of `solid_contacts`. Only spheres and two cylinders are left
-/// to Bullet. Such a shape has its `geometry::Solid` for its user pointer.
+/// Bullet's configuration, but for contacts of boxes, which are those of `box_contacts`, and of all other shapes with
+/// each other and with planes, which are those of `solid_contacts`. Only two cylinders are left to Bullet. A shape has
+/// its `geometry::Solid` for its user pointer.
 class ContactConfiguration final : public btDefaultCollisionConfiguration {
  public:
   btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) override;

@@ -6,30 +6,15 @@
 
 #include "bullet_contacts.h"
 #include "constants.h"
+#include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::rigid_bodies {
-namespace {
-
-/// Whether every vertex lies behind every triangle's plane, so that spheres need its hull alone.
-bool is_convex(const geometry::TriangleMesh& mesh) {
-  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Eigen::Vector3i& t) {
-    const Vector3d& a = mesh.corner(t, 0);
-    const Vector3d n = (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a);
-    if (n.isZero(0.0)) return true;
-    const Vector3d unit = n.normalized();
-    return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                       [&](const Vector3d& v) { return unit.dot(v - a) <= closed_gap; });
-  });
-}
-
-}  // namespace
 
 BulletShape::BulletShape(const scene::Body& body, const RigidTransform& X_OB) {
   for (const geometry::Shape& shape : body.collision) {
     parts_.push_back(part_of(shape.geometry));
     compound_.addChildShape(to_bullet(RigidTransform(X_OB.inverse() * shape.X_OS)), parts_.back().get());
-    if (std::holds_alternative<geometry::Sphere>(shape.geometry)) continue;
     solids_.push_back(std::make_unique<const geometry::Solid>(shape.geometry));
     parts_.back()->setUserPointer(const_cast<geometry::Solid*>(solids_.back().get()));  // is only read
   }
@@ -51,13 +36,14 @@ double BulletShape::depth(const BulletShape& a, const RigidTransform& X_WA, cons
   for (int i = 0; i < a.compound_.getNumChildShapes(); ++i) {
     for (int k = 0; k < b.compound_.getNumChildShapes(); ++k) {
       const btCollisionShape &own = *a.compound_.getChildShape(i), &other = *b.compound_.getChildShape(k);
-      const auto* own_solid = static_cast<const geometry::Solid*>(own.getUserPointer());
-      const auto* other_solid = static_cast<const geometry::Solid*>(other.getUserPointer());
-      const bool alike = own.getShapeType() == other.getShapeType() && !own.isConcave() && !own.isPolyhedral();
-      const bool boxes = own.getShapeType() == BOX_SHAPE_PROXYTYPE && other.getShapeType() == BOX_SHAPE_PROXYTYPE;
-      if (own_solid == nullptr || other_solid == nullptr || alike || boxes) continue;
+      const auto& own_solid = *static_cast<const geometry::Solid*>(own.getUserPointer());
+      const auto& other_solid = *static_cast<const geometry::Solid*>(other.getUserPointer());
+      const bool alike = own.getShapeType() == other.getShapeType();
+      const bool by_outline = alike && own.getShapeType() == BOX_SHAPE_PROXYTYPE;
+      const bool by_bullet = alike && own.getShapeType() == CYLINDER_SHAPE_PROXYTYPE;
+      if (by_outline || by_bullet) continue;
       for (const geometry::BoxContact& c :
-           geometry::solid_contacts(*own_solid, X_WA * from_bullet(a.compound_.getChildTransform(i)), *other_solid,
+           geometry::solid_contacts(own_solid, X_WA * from_bullet(a.compound_.getChildTransform(i)), other_solid,
                                     X_WB * from_bullet(b.compound_.getChildTransform(k)), 0.0, unswept_of_free)) {
         depth = std::max(depth, -c.gap);
       }
@@ -72,33 +58,21 @@ std::unique_ptr<btCollisionShape> BulletShape::part_of(const geometry::Geometry&
     return std::make_unique<WithMargin<btBoxShape>>(to_bullet(half));
   }
   if (const auto* sphere = std::get_if<geometry::Sphere>(&geometry)) {
-    return std::make_unique<btSphereShape>(sphere->radius + contact_skin);
+    return std::make_unique<WithMargin<btSphereShape>>(sphere->radius + contact_skin);
   }
   if (const auto* cylinder = std::get_if<geometry::Cylinder>(&geometry)) {
     const double r = cylinder->radius + contact_skin;
     return std::make_unique<WithMargin<btCylinderShapeZ>>(btVector3(r, r, 0.5 * cylinder->length + contact_skin));
   }
-  return part_of(*std::get<geometry::MeshPtr>(geometry));
-}
-
-std::unique_ptr<btCollisionShape> BulletShape::part_of(const geometry::TriangleMesh& mesh) {
-  std::unique_ptr<btCollisionShape> part;
-  if (is_convex(mesh)) {
-    auto hull = std::make_unique<WithMargin<btConvexHullShape>>();
-    for (const Vector3d& v : mesh.vertices) hull->addPoint(to_bullet(v), false);
-    hull->recalcLocalAabb();
-    hull->optimizeConvexHull();
-    part = std::move(hull);
-  } else {
-    meshes_.push_back(std::make_unique<btTriangleMesh>());
-    for (const Eigen::Vector3i& t : mesh.triangles) {
-      meshes_.back()->addTriangle(to_bullet(mesh.corner(t, 0)), to_bullet(mesh.corner(t, 1)),
-                                  to_bullet(mesh.corner(t, 2)));
-    }
-    part = std::make_unique<WithMargin<btBvhTriangleMeshShape>>(meshes_.back().get(), true);
+  // Of a mesh Bullet sees the box around it.
+  const Eigen::AlignedBox3d extent = geometry::bounding_box(geometry);
+  auto hull = std::make_unique<WithMargin<btConvexHullShape>>();
+  for (const Vector3d& corner : geometry::corners(0.5 * extent.sizes())) {
+    hull->addPoint(to_bullet(Vector3d(extent.center() + corner)), false);
   }
-  part->setMargin(contact_skin);
-  return part;
+  hull->recalcLocalAabb();
+  hull->setMargin(contact_skin);
+  return hull;
 }
 
 }  // namespace spring_workbench::rigid_bodies

@@ -23,13 +23,11 @@ class BulletShape {
  private:
   static double depth(const BulletShape& a, const RigidTransform& X_WA, const BulletShape& b,
                       const RigidTransform& X_WB);
-  std::unique_ptr<btCollisionShape> part_of(const geometry::Geometry& geometry);
-  std::unique_ptr<btCollisionShape> part_of(const geometry::TriangleMesh& mesh);
+  static std::unique_ptr<btCollisionShape> part_of(const geometry::Geometry& geometry);
 
   btCompoundShape compound_;
   std::vector<std::unique_ptr<btCollisionShape>> parts_;
-  std::vector<std::unique_ptr<btTriangleMesh>> meshes_;
-  std::vector<std::unique_ptr<const geometry::Solid>> solids_;  ///< the parts' user pointers; none of a sphere
+  std::vector<std::unique_ptr<const geometry::Solid>> solids_;  ///< the parts' user pointers
 };
 
 }  // namespace spring_workbench::rigid_bodies

@@ -61,9 +61,9 @@ int parts_of(const btBroadphasePair& pair) {
 
 /// Centre of the box around it, in world.
 btVector3 centre_of(const btCollisionObject& object) {
-  btVector3 least, most;
-  object.getCollisionShape()->getAabb(object.getWorldTransform(), least, most);
-  return 0.5 * (least + most);
+  btVector3 min, max;
+  object.getCollisionShape()->getAabb(object.getWorldTransform(), min, max);
+  return 0.5 * (min + max);
 }
 
 }  // namespace

@@ -43,13 +43,13 @@ double reach(const geometry::StraightMotion& motion, const Vector3d& p_W, double
 
 /// How far a body's points can go that are no further from its origin than `most_O`, along its own axes: in any
 /// direction, and along one [m].
-double way(const geometry::StraightMotion& motion, const Matrix3d& R_OW, const Vector3d& most_O) {
+double max_displacement(const geometry::StraightMotion& motion, const Matrix3d& R_OW, const Vector3d& most_O) {
   const Vector3d a = (R_OW * motion.turn_W).cwiseAbs(), &r = most_O;
   const Vector3d arc(a.y() * r.z() + a.z() * r.y(), a.z() * r.x() + a.x() * r.z(), a.x() * r.y() + a.y() * r.x());
   return motion.move_W.norm() + arc.norm();
 }
-double way_along(const Vector3d& n_W, const geometry::StraightMotion& motion, const Matrix3d& R_OW,
-                 const Vector3d& most_O) {
+double max_displacement_along(const Vector3d& n_W, const geometry::StraightMotion& motion, const Matrix3d& R_OW,
+                              const Vector3d& most_O) {
   return n_W.dot(motion.move_W) + (R_OW * n_W.cross(motion.turn_W)).cwiseAbs().dot(most_O);
 }
 
@@ -68,8 +68,7 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
   static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
   static_cast<void>(set_once);
-  configuration_.setPlaneConvexMultipointIterations(4, 4);  // a flush face touches with its corners at once
-  configuration_.setConvexConvexMultipointIterations(4, 4);
+  configuration_.setConvexConvexMultipointIterations(4, 4);  // two cylinders touch all along at once
   world_.setGravity(btVector3(0.0, 0.0, -scene_.gravity));
   btContactSolverInfo& info = world_.getSolverInfo();
   info.m_splitImpulse = true;  // what is undone of a penetration becomes no speed
@@ -185,9 +184,9 @@ void BulletWorld::leave(std::size_t index) {
 Extent BulletWorld::path_of(std::size_t index, double h) const {
   const Item& item = items_[index];
   Extent box = geometry::bounding_box(item.box_O, item.X_WO);
-  const double turned = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
+  const double arc = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
   box.extend(Extent(box).translate(h * item.V_WO_W.linear));
-  return geometry::grown(box, turned + margin_near);
+  return geometry::grown(box, arc + margin_near);
 }
 
 std::vector<std::size_t> BulletWorld::inside(const Extent& box_W) const {
@@ -334,19 +333,21 @@ Extent BulletWorld::swept(const Item& item, const RigidTransform& X0_WO, const R
                           double margin) const {
   Extent path = geometry::bounding_box(item.box_O, X0_WO);
   path.extend(geometry::bounding_box(item.box_O, X1_WO));
-  const double turned = math::turn_between(X0_WO, X1_WO).norm();
-  return geometry::grown(path, margin + item.radius * std::min(turned, 2.0));
+  const double angle = math::turn_between(X0_WO, X1_WO).norm();
+  return geometry::grown(path, margin + item.radius * std::min(angle, 2.0));
 }
 
 RigidWorld::Bodies BulletWorld::movable_near(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
-                                             double h, const Bodies& carried, std::size_t most) const {
+                                             double h, const Bodies& carried, std::size_t max_count) const {
   if (items_[body].leaf == nullptr) return {};
   std::set<std::size_t> near;
   const Extent path = swept(items_[body], X0_WO, X1_WO, margin_near);
   const auto add = [&](const Bodies& of, const auto& is) {
     std::copy_if(of.begin(), of.end(), std::inserter(near, near.end()), [&](auto i) { return i != body && is(i); });
   };
-  const auto comes = [&](auto i) { return near.size() < most && items_[i].leaf && path_of(i, h).intersects(path); };
+  const auto comes = [&](auto i) {
+    return near.size() < max_count && items_[i].leaf && path_of(i, h).intersects(path);
+  };
   add(inside(path), [&](auto i) { return items_[i].movable; });
   add(in_world_, [&](auto i) { return awake(items_[i]) && comes(i); });
   add(carried, comes);
@@ -378,7 +379,8 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
   const auto by_extent = [&](const geometry::BoxGap& gap, const auto& path, const Vector3d& most_O) {
     const double left = gap.gap - 2.0 * contact_skin;
     const bool near = left < may_go_unswept;
-    const double approach = near ? way(path, R_OW, most_O) : way_along(-gap.n_W, path, R_OW, most_O);
+    const double approach =
+        near ? max_displacement(path, R_OW, most_O) : max_displacement_along(-gap.n_W, path, R_OW, most_O);
     const double allowed = std::max(left, untouched ? 0.0 : may_go_unswept);
     if (allowed < part * approach) part = allowed / approach;
   };
@@ -391,7 +393,8 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
     const geometry::BoxGap above = geometry::gap_above(here, scene_.bench_height);
     if (own.exact) {
-      part = geometry::clear_above(here, path, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above, bench), part);
+      part = geometry::free_fraction_above(here, path, {Vector3d::UnitZ(), scene_.bench_height},
+                                           tolerance(above, bench), part);
     } else {
       by_extent(above, path, extent_O);
     }
@@ -410,7 +413,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
         const geometry::OutlineBox there{X_before * box.X, box.half, box.exact};
         const geometry::BoxGap gap = geometry::gap_between(here, there);
         if (own.exact && box.exact) {
-          part = geometry::clear_of(here, relative, there, tolerance(gap, i), part);
+          part = geometry::free_fraction_to(here, relative, there, tolerance(gap, i), part);
         } else {
           by_extent(gap, relative, most_O);
         }
@@ -418,7 +421,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     }
     if (untouched || part < 1.0 || !item.shape || !other.shape) continue;
     const double allowed = std::max(admissible(i), depth_between(body, i, contacts_)) + same_depth;
-    const double moved = way(relative, R_OW, most_O);
+    const double moved = max_displacement(relative, R_OW, most_O);
     part = BulletShape::fraction_before(*item.shape, X0_WO * item.X_OB, X1_seen * item.X_OB, moved, *other.shape,
                                         X_before * other.X_OB, allowed);
   }
@@ -429,8 +432,8 @@ double BulletWorld::admissible_fraction_of_free() const {
   double part = 1.0;
   for (const BeforeStep& before : before_step_) {
     const Item& item = items_[before.body];
-    const double turned = item.radius * math::turn_between(before.X_WO, item.X_WO).norm();
-    const double path = (item.X_WO.translation() - before.X_WO.translation()).norm() + turned;
+    const double arc = item.radius * math::turn_between(before.X_WO, item.X_WO).norm();
+    const double path = (item.X_WO.translation() - before.X_WO.translation()).norm() + arc;
     if (path < deepest_on_path) continue;
     part = std::min(part, free_fraction(before.body, before.X_WO, item.X_WO, false, unswept_on(path)));
   }

@@ -46,7 +46,7 @@ class BulletWorld final : public RigidWorld {
   const Twist& velocity(std::size_t body) const override { return items_[body].V_WO_W; }
   bool awake(std::size_t body) const override { return awake(items_[body]); }
   Bodies movable_near(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
-                      const Bodies& carried, std::size_t most) const override;
+                      const Bodies& carried, std::size_t max_count) const override;
   bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                  double margin) const override;
   double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,

@@ -48,7 +48,7 @@ constexpr double deepest_solved = 1e-4;
 constexpr double one_normal = 0.99;
 /// Manifolds of four contacts for a pair of shapes other than boxes. Fewer: it is not stopped in all directions, which
 /// counts. Test: RigidWorld.ABoxStopsInANotchWithBothItsFaces at 1.
-constexpr std::size_t most_manifolds = 8;
+constexpr std::size_t max_manifolds = 8;
 /// [m] gap below which a contact without impulse is reported. Test: none: no value tried makes one fail.
 constexpr double closed_gap = 1e-5;
 /// [m] largest residual of the contacts of a solved step. Larger: friction is as much less exact. Test:

@@ -678,7 +678,7 @@ void Simulation::follow(const Simulation& other) {
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
 const bodies::Changes& Simulation::object_changes() const { return impl_->objects.changes(); }
-const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().told(); }
+const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().reported(); }
 tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
 
 }  // namespace spring_workbench::simulation

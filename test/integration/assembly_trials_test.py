@@ -126,6 +126,15 @@ class AssemblyTrials(unittest.TestCase):
                 interval[tool] = (statistics.mean(forces) - half, statistics.mean(forces) + half)
             self.assertLess(interval["spring_fork"][1], interval["direct"][0], (scene, interval))
 
+    def test_no_peg_is_pressed_harder_than_the_tool_can(self):
+        """A rigid tool presses a peg of 0.48 kg with 40 N per mm and kg of the distance it is behind the hand, which is
+        1 m at most with what the damper adds (doc/model.md, When the fork cannot follow). Tilted in its hole the peg is
+        a lever, 60 mm long between walls that leave 2 mm."""
+        arguments = ["--scene", SOURCE + "/scenes/tight_fit.urdf", "--settings", SETTINGS, "--tool", "ray"]
+        arguments += ["--trials", "1", "--seed", "4", "--time-limit", "15"]
+        score = list(csv.DictReader(run(*arguments).stdout.splitlines()))[0]
+        self.assertLess(float(score["largest_force_N"]), 0.48 * 40e3 * 1.0 * 60 / 2)
+
     def test_bad_input_is_refused_in_one_line(self):
         for arguments, word in [
             ([], "--scene"),

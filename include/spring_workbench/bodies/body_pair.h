@@ -45,8 +45,8 @@ class BodyPair final : public SteppedBody {
     Wrench first_W, second_W;
   };
   /// A wrench on the first body, and the opposite one on the second, whose centre is `apart_W` away from that of the
-  /// first. `turned_W`: by how much F will have turned from now on.
-  Wrenches on_both(const Wrench& wrench_F, const Vector3d& apart_W, const Vector3d& turned_W) const;
+  /// first. `rotation_W`: by how much F will have turned from now on.
+  Wrenches on_both(const Wrench& wrench_F, const Vector3d& apart_W, const Vector3d& rotation_W) const;
 
   Bodies bodies_;
   RigidTransform X_2F_;

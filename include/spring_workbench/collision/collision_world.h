@@ -85,7 +85,7 @@ class CollisionWorld {
   /// contact, as in section 5 of the paper. It advances by what the gaps leave clear for certain or, if there are no
   /// gaps, by steps in which no point of the body moves further than `resolution` [m]. In the first step that touches,
   /// the free and the touching fraction are found by `levels` halvings, or, with 0, as the time of impact: by what is
-  /// surely clear again (conservative advancement, Mirtich 1996).
+  /// certainly clear again (conservative advancement, Mirtich 1996).
   virtual SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             const Tolerance& tolerance, double resolution, int levels) const;
 

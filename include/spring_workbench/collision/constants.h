@@ -12,6 +12,6 @@ constexpr double support_gap = 1e-4;
 /// A contact carries a body if the z component of its unit normal exceeds this. Larger: a body on a slope falls at the
 /// start, or hangs in the air when the slope is taken away. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays
 /// at 1.
-constexpr double least_support = 0.1;
+constexpr double min_support = 0.1;
 
 }  // namespace spring_workbench::collision

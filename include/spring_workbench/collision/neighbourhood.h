@@ -32,8 +32,8 @@ class Neighbourhood {
     const Extent& extent = extents_[body];
     const Eigen::AlignedBox3d ends =
         geometry::bounding_box(extent.box_O, X0_WO).merged(geometry::bounding_box(extent.box_O, X1_WO));
-    const double turned = std::min(math::turn_between(X0_WO, X1_WO).norm(), 2.0);
-    return geometry::grown(ends, extent.radius * turned + margin_);
+    const double angle = std::min(math::turn_between(X0_WO, X1_WO).norm(), 2.0);
+    return geometry::grown(ends, extent.radius * angle + margin_);
   }
   /// Returns what stands in the box, the bench included.
   std::vector<std::size_t> standing(const Eigen::AlignedBox3d& box_W) const { return standing_.near(box_W); }

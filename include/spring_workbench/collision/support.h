@@ -23,7 +23,7 @@ inline std::vector<ContactPoint> contacts_at(const CollisionWorld& world, std::s
 /// Returns whether a body supports this one from below, at a distance of at most `support_gap`.
 inline bool is_carried(const CollisionWorld& world, std::size_t body, const RigidTransform& X_WO) {
   const std::vector<ContactPoint> below = contacts_at(world, body, X_WO, -support_gap);
-  return std::any_of(below.begin(), below.end(), [](const ContactPoint& c) { return c.n_W.z() > least_support; });
+  return std::any_of(below.begin(), below.end(), [](const ContactPoint& c) { return c.n_W.z() > min_support; });
 }
 
 /// Returns the movable bodies that lie on this one, at a distance of at most `support_gap`.
@@ -32,7 +32,7 @@ inline std::vector<std::size_t> movable_on(const CollisionWorld& world, const sc
   std::vector<std::size_t> found;
   for (const ContactPoint& c : contacts_at(world, body, X_WO, support_gap)) {
     const bool lies_on_it =
-        c.other != CollisionWorld::bench && scene.bodies[c.other].movable && c.n_W.z() < -least_support;
+        c.other != CollisionWorld::bench && scene.bodies[c.other].movable && c.n_W.z() < -min_support;
     if (lies_on_it) found.push_back(c.other);
   }
   return found;

@@ -26,11 +26,11 @@ class ContactLog {
   void take(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
 
-  /// Mark the start and the end of a call of `advance`; after it, told() has the contacts of that call with their
+  /// Mark the start and the end of a call of `advance`; after it, reported() has the contacts of that call with their
   /// phases.
   void begin_call();
   void end_call();
-  const std::vector<ContactState>& told() const { return told_; }
+  const std::vector<ContactState>& reported() const { return reported_; }
 
   /// Between two calls of `advance`.
   void exchange(math::StateArchive& state);
@@ -43,7 +43,7 @@ class ContactLog {
   std::set<std::size_t> with_contacts_;              ///< objects that touch something
   std::vector<ContactState> before_;                 ///< when the call began
   std::vector<ContactState> ended_;                  ///< ended in the present call
-  std::vector<ContactState> told_;
+  std::vector<ContactState> reported_;
 };
 
 }  // namespace spring_workbench::contact

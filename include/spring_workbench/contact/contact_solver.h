@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "spring_workbench/collision/collision_world.h"
+#include "spring_workbench/friction/contact_problem.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/math/state_archive.h"
 
@@ -27,10 +28,10 @@ struct ContactRow {
 };
 
 /// Finds the loads of Signorini's and Coulomb's laws: gap ≥ 0 ⊥ normal load ≥ 0, and either the slip is zero or the
-/// friction opposes it with μ times the normal load. `compliance` (6 × 6, symmetric, ≥ 0): change of the body's motion
-/// per wrench at the centre of mass. Projected Gauss–Seidel, contact by contact; if a material is compliant,
-/// friction::ContactProblem.
-void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows);
+/// friction opposes it with μ times the normal load. `response` (6 × 6, ≥ 0): change of the body's motion per wrench at
+/// the centre of mass. `enough`: see friction::ContactProblem, whose memory is used.
+void solve_contacts(friction::ContactProblem& problem, const Matrix6d& response, double enough,
+                    std::vector<ContactRow>& rows);
 
 /// Sum of the rows' loads as a wrench at the centre of mass, world axes.
 Wrench total_load(const std::vector<ContactRow>& rows);

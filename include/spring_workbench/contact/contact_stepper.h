@@ -24,10 +24,10 @@ class ContactStepper {
   ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int bisection_levels);
 
   /// Returns whether nothing movable is near the path of the body between two poses.
-  using MayGo = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
+  using MotionCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
   /// Carries the body over `h` [s]. `rows`: its contacts at the end of the last step, replaced by those at the end of
-  /// this one. Returns false, and restores the body, if `may_go` forbids the motion or the first substep of it.
-  bool step(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
+  /// this one. Returns false, and restores the body, if `is_allowed` forbids the motion or the first substep of it.
+  bool step(bodies::SteppedBody& body, double h, const MotionCheck& is_allowed, std::vector<ContactRow>& rows,
             ContactOutcome& outcome);
 
  private:
@@ -40,7 +40,7 @@ class ContactStepper {
                     ContactOutcome& outcome) const;
   /// Removes the approach speed of the contacts, with the restitution of the materials or none. An open contact may
   /// approach so fast that it closes within `h` [s]: what lands on several points lands on all of them at once.
-  /// Compliant materials that are loaded already, or approach slowly, give way as over the next substep, of `substep`
+  /// Compliant materials that are loaded already, or approach slowly, yield as over the next substep, of `substep`
   /// [s].
   enum class Bounce { none, of_materials };
   void collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h, double substep) const;
@@ -58,18 +58,18 @@ class ContactStepper {
   void look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
                    std::vector<Start>& starts, ContactOutcome& outcome) const;
   /// Result of a substep.
-  struct Piece {
+  struct Substep {
     bool done = false;                ///< the body has made this substep
     double next = 0.0;                ///< length of the next substep to try, relative to this one
     std::vector<ContactRow> touched;  ///< if not done: the obstacles
-    bool allowed = true;              ///< `may_go` allows the motion
+    bool allowed = true;              ///< `is_allowed` allows the motion
   };
   /// Tries to advance by `h`, under the loads of the rows if there are any. If it fails, the body is where it was.
-  Piece try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
-                    ContactOutcome& outcome) const;
+  Substep try_substep(bodies::SteppedBody& body, double h, const MotionCheck& is_allowed, std::vector<ContactRow>& rows,
+                      ContactOutcome& outcome) const;
   /// Corrects the impulses of the rows' loads over a substep of `h` [s] so that no contact approaches at its end, and
   /// none slips where friction, which is constant over it, has reversed its slip or could have held it.
-  void settle(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const;
+  void correct_impulses(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const;
   /// Adds the contacts that are new and removes their approach speed. Returns false if none is new.
   bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, double substep,
             std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
@@ -89,8 +89,10 @@ class ContactStepper {
   const scene::Scene& scene_;
   collision::CollisionWorld& collision_;
   int levels_;
-  std::vector<double> radius_;        ///< of every body of the scene [m]
-  mutable bodies::TrialStart start_;  ///< start of the present trial, a member so that a step allocates nothing
+  std::vector<double> radius_;  ///< of every body of the scene [m]
+  // Members so that a step allocates little.
+  mutable bodies::TrialStart start_;  ///< start of the present trial
+  mutable friction::ContactProblem problem_;
 };
 
 }  // namespace spring_workbench::contact

@@ -58,11 +58,11 @@ class DynamicStepper {
   /// body is at the beginning of the substep.
   static rigid_bodies::DrivenBody driven_body(const Candidate& candidate, double h);
   /// Moves the bodies to where the candidates end.
-  void go_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome);
-  enum class Piece { gone, gone_unsolved, too_long, stuck };
+  void step_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome);
+  enum class Result { done, done_unsolved, too_long, stuck };
   /// Carries all bodies over one substep with contact. If a body would then penetrate another too deeply or pass
   /// through it, all bodies are restored and `h` is set to a shorter substep to try, unless none is short enough.
-  Piece go_in_contact(std::vector<Candidate> candidates, double& h);
+  Result step_in_contact(std::vector<Candidate> candidates, double& h);
   /// Advances the world over a substep, and returns the contact wrenches on the held bodies, which are still at its
   /// start.
   std::vector<rigid_bodies::DrivenBody> solve(const std::vector<Candidate>& candidates, double h);
@@ -70,19 +70,19 @@ class DynamicStepper {
   double admissible_fraction(const std::vector<Candidate>& candidates,
                              const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
   /// Returns the same fraction of the motions that the solver predicted.
-  double foreseen_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const;
+  double predicted_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const;
   /// Blocks the held bodies for one substep, while the others move on.
-  void hold_back(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome);
+  void block(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome);
   void take(bodies::SteppedBody& body, const Wrench& contact_W);
   void add_contacts();
-  bool comes_first(std::size_t body, std::size_t other) const;
+  bool has_priority(std::size_t body, std::size_t other) const;
 
   const scene::Scene& scene_;
   std::unique_ptr<rigid_bodies::RigidWorld> world_;
   std::vector<rigid_bodies::WorldContact> contacts_;
   std::vector<std::size_t> held_;         ///< indices in the scene of the bodies held in the last step
   std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last substep
-  double shortest_piece_ = 0.0;           ///< [s] of the present step
+  double min_substep_ = 0.0;              ///< [s] of the present step
 };
 
 }  // namespace spring_workbench::contact

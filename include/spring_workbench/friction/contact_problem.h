@@ -14,8 +14,10 @@ namespace spring_workbench::friction {
 /// Three methods, each only if the one before leaves too large a residual: symmetric Gauss–Seidel iterations over the
 /// contacts from the loads assumed [JAJ98]; the alternating direction method of multipliers on one sparse Cholesky
 /// factor, with De Saxcé's shift and Anderson acceleration [DF98, BPC11, WN11]; Newton's method on the augmented
-/// Lagrangian, nonsymmetric as friction is [AC91] (all in doc/model.md). The result is always in the cones, and is the
-/// best one met. The same problem gives the same bits.
+/// Lagrangian, nonsymmetric as friction is [AC91] (all in doc/model.md). The result is always in the cones. Loads
+/// that do not solve the problem are taken only where the residual falls to 0.3 of that of the loads before: between
+/// walls that leave no room they would grow with a penalty, and the residual would stall. The same problem gives the
+/// same bits.
 class ContactProblem {
  public:
   ContactProblem();

@@ -18,15 +18,15 @@ struct HalfSpace {
   double height = 0.0;               ///< [m]
 };
 
-/// Fraction of `motion`, at most `longest`, up to which it is guaranteed that no corner of the body's box is deeper
+/// Fraction of `motion`, at most `limit`, up to which it is guaranteed that no corner of the body's box is deeper
 /// than `tolerance` [m] in the half-space: a corner's height differs from its tangent by at most ½ f² times the bound
 /// of its second derivative.
-double clear_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below, double tolerance,
-                   double longest);
+double free_fraction_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below,
+                           double tolerance, double limit);
 
 /// The same for another box, at rest. The separating plane is fixed to whichever of the two boxes gives the larger
 /// fraction.
-double clear_of(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
-                double longest);
+double free_fraction_to(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
+                        double limit);
 
 }  // namespace spring_workbench::geometry

@@ -16,11 +16,13 @@ struct PartTree {
   std::vector<Eigen::AlignedBox3d> boxes;
   std::unique_ptr<const Eigen::KdBVH<double, 3, int>> tree;
   void build();  ///< from `boxes`
+  /// Returns the parts whose boxes come into a box.
+  std::vector<std::size_t> inside(const Eigen::AlignedBox3d& box) const;
 };
 
-/// The features of a box, a cylinder or a closed mesh that another solid can touch, in the shape's frame: corners,
-/// faces, and convex edges (neither seams within a flat face nor grooves). The rims of a cylinder have the edges of a
-/// prism; its side, its ends and the points on its rims are exact.
+/// The features of a shape that another solid can touch, in the shape's frame: corners, faces, and convex edges
+/// (neither seams within a flat face nor grooves) of a box or a closed mesh. The rims of a cylinder have the edges of a
+/// prism; its side, its ends and the points on its rims are exact, as a sphere is, which has none of these.
 struct Solid {
   struct Face {
     std::array<Vector3d, 3> corners;
@@ -34,9 +36,9 @@ struct Solid {
 
   Geometry geometry;
   std::optional<Cylinder> cylinder;
-  std::vector<Vector3d> corners;       ///< empty for a cylinder
+  std::vector<Vector3d> corners;       ///< of a box or a mesh
   std::vector<std::vector<int>> next;  ///< for each corner, the corners that are joined to it by an edge
-  std::vector<Face> faces;             ///< empty for a cylinder
+  std::vector<Face> faces;             ///< of a box or a mesh
   std::vector<Edge> edges;
   PartTree face_tree, edge_tree;
   Eigen::AlignedBox3d extent;
@@ -50,8 +52,8 @@ Vector3d furthest(const Solid& solid, const Vector3d& along_S);
 std::vector<Vector3d> lowest_points(const Solid& solid, const Vector3d& n_S);
 
 /// All contacts of two solids with a gap between −`deepest` and `reach` [m]: corners of either one (of a cylinder: the
-/// points with which it can come to rest) against faces of the other, and edges against edges. Contacts between the
-/// sides of two cylinders are not found.
+/// points with which it can come to rest) against faces of the other, and edges against edges; those of a sphere at any
+/// depth. Contacts between the sides of two cylinders are not found.
 std::vector<BoxContact> solid_contacts(const Solid& a, const RigidTransform& X_WA, const Solid& b,
                                        const RigidTransform& X_WB, double reach, double deepest);
 
@@ -61,7 +63,7 @@ bool overlap(const Solid& a, const RigidTransform& X_WA, const Solid& b, const R
 /// Contact of the point `p_S` inside the solid with the surface at which the line from there along `n_S` leaves the
 /// solid; none if the exit is not at the distance `depth` [m] to within `within` [m]. Surfaces in between are ignored,
 /// so a point that has passed through a thin part is pushed back to where it entered.
-std::optional<BoxContact> way_out(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
-                                  double within);
+std::optional<BoxContact> exit_contact(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
+                                       double within);
 
 }  // namespace spring_workbench::geometry

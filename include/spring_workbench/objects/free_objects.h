@@ -52,9 +52,9 @@ class FreeObjects : public ObjectList {
 
   /// Returns all objects to their initial poses, asleep unless they would fall from there.
   void return_to_start();
-  /// Returns false, and does nothing, if `may_go` forbids the motion.
-  bool carry(bodies::SteppedBody& stepped, std::size_t object, double h, const contact::ContactStepper::MayGo& may_go,
-             StepCounts& counts);
+  /// Returns false, and does nothing, if `is_allowed` forbids the motion.
+  bool carry(bodies::SteppedBody& stepped, std::size_t object, double h,
+             const contact::ContactStepper::MotionCheck& is_allowed, StepCounts& counts);
   static void note(const contact::ContactOutcome& outcome, StepCounts& counts);
   /// Releases an object into free flight from its current state; a massless one stays in place.
   void start_free_flight(std::size_t object, double now);

@@ -65,9 +65,9 @@ class RigidWorld {
   virtual bool awake(std::size_t body) const = 0;             ///< false for one that is not movable
 
   /// Broadphase: returns what is movable and comes near the path of the body over `h` [s]: sleeping bodies, and those
-  /// that are awake or in `carried`, on their own paths. The search ends when it has found `most` of them.
+  /// that are awake or in `carried`, on their own paths. The search ends when it has found `max_count` of them.
   virtual Bodies movable_near(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
-                              const Bodies& carried, std::size_t most) const = 0;
+                              const Bodies& carried, std::size_t max_count) const = 0;
 
   /// Broadphase: returns whether anything else, including the bench, comes within `margin` [m] of the path of the body;
   /// the rotation is covered.

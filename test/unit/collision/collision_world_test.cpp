@@ -208,7 +208,7 @@ TEST(Pairs, TwoBoxesAgreeWithTheSeparatingAxisTheorem) {
     ++touching;
     const ContactPoint& c = deepest(found);
     EXPECT_GE(c.depth, depth - 1e-9);
-    EXPECT_LE(c.depth, 1.06 * depth + 1e-9);  // FCL prefers a face to a pair of edges within five in a hundred
+    EXPECT_LE(c.depth, 1.06 * depth + 1e-9);  // a face is preferred to a pair of edges within five in a hundred
     for (const ContactPoint& point : found) {
       const Vector3d p_B = X_WB.inverse() * point.p_W;
       EXPECT_NEAR((p_B.cwiseAbs() - 0.5 * b.size).maxCoeff(), 0.0, 1e-9) << "is on the other's surface";

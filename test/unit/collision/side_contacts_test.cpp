@@ -54,7 +54,7 @@ Vector3d nearest_to_axis(const geometry::TriangleMesh& mesh, const RigidTransfor
   return nearest;
 }
 
-TEST(BesideCylinder, ItTouchesWhereAnEdgeComesNearestAndAsDeep) {
+TEST(CylinderSide, ItTouchesWhereAnEdgeComesNearestAndAsDeep) {
   Random random(71);
   for (int i = 0; i < 40; ++i) {
     const geometry::MeshPtr mesh = i % 2 ? box_mesh(random.vector(0.05).cwiseAbs() + Vector3d::Constant(0.02))
@@ -86,7 +86,7 @@ TEST(BesideCylinder, ItTouchesWhereAnEdgeComesNearestAndAsDeep) {
   }
 }
 
-TEST(BesideCylinder, TheWayToItIsFreeUpToTheTolerance) {
+TEST(CylinderSide, TheWayToItIsFreeUpToTheTolerance) {
   const geometry::MeshPtr mesh = sphere_mesh(0.03, 8);
   const CollisionWorld world(mesh_and_rod(mesh, RigidTransform::Identity()));
   Random random(72);
@@ -106,7 +106,7 @@ TEST(BesideCylinder, TheWayToItIsFreeUpToTheTolerance) {
   }
 }
 
-TEST(BesideCylinder, NothingIsMissedAtItsEndsThroughFacesAndInside) {
+TEST(CylinderSide, NothingIsMissedAtItsEndsThroughFacesAndInside) {
   // A box of 40 mm: at the rod's end, pierced by it, around a short rod whole; and clear of it beyond its end.
   const geometry::MeshPtr mesh = box_mesh(Vector3d::Constant(0.04));
   const CollisionWorld world(mesh_and_rod(mesh, RigidTransform::Identity()));

@@ -10,8 +10,6 @@
 #include <random>
 #include <vector>
 
-#include "spring_workbench/math/friction_cones.h"
-
 namespace spring_workbench::friction {
 namespace {
 
@@ -183,41 +181,174 @@ TEST(ContactProblem, AnEvenRowOfBoxesTakesIterationsAlone) {
   EXPECT_EQ(result.factors, 0);
 }
 
-TEST(ContactProblem, WithoutFrictionItAgreesWithTheInteriorPointMethod) {
-  std::mt19937 random(7);
-  std::normal_distribution<double> normal;
-  for (int trial = 0; trial < 50; ++trial) {
-    const Index contacts = 1 + trial % 8, dofs = 6 + trial % 7;
-    const MatrixXd J = MatrixXd::NullaryExpr(3 * contacts, dofs, [&] { return normal(random); });
-    VectorXd response(dofs);
-    for (double& r : response) r = std::pow(10.0, normal(random));
-    const VectorXd b = J * VectorXd::NullaryExpr(dofs, [&] { return normal(random); });
-    VectorXd x;
-    if (!math::solve_in_cones(J * response.asDiagonal() * J.transpose(), b,
-                              std::vector<double>(static_cast<std::size_t>(contacts), 0.0), x)) {
-      continue;
-    }
-    ContactProblem problem;
+/// Contacts of one body with random Jacobians, whose degrees of freedom respond up to `spread` times as much as each
+/// other. Standing still is an admissible motion.
+struct RandomContacts {
+  MatrixXd J;
+  VectorXd response, motion;
+  std::vector<double> friction;
+
+  RandomContacts(std::mt19937& random, Index contacts, Index dofs, double spread) : response(dofs) {
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> unit;
+    J = MatrixXd::NullaryExpr(3 * contacts, dofs, [&] { return normal(random); });
+    for (double& r : response) r = std::pow(spread, unit(random) - 0.5);
+    motion = J * VectorXd::NullaryExpr(dofs, [&] { return normal(random); });
+    for (Index i = 0; i < contacts; ++i) friction.push_back(i % 4 == 0 ? 0.0 : unit(random));
+  }
+  std::size_t fill(ContactProblem& problem) const {
     const std::size_t body = problem.add_body(response.asDiagonal().toDenseMatrix());
-    for (Index i = 0; i < contacts; ++i) {
-      problem.add_contact(0.0, b.segment<3>(3 * i), Vector3d::Zero());
-      problem.add_part(body, J.middleRows<3>(3 * i));
+    for (std::size_t i = 0; i < friction.size(); ++i) {
+      const auto row = static_cast<Index>(3 * i);
+      problem.add_contact(friction[i], motion.segment<3>(row), Vector3d::Zero());
+      problem.add_part(body, J.middleRows<3>(row));
     }
-    EXPECT_LE(problem.solve(1e-9, 1e-6).residual, 1e-6 * b.norm());
-    const VectorXd by_it = response.asDiagonal() * (J.transpose() * x);
-    EXPECT_LE((problem.change(body) - by_it).norm(), 1e-4 * (1.0 + by_it.norm())) << "trial " << trial;
+    return body;
+  }
+  /// How far loads and motions are from Coulomb's law, as a share of the largest of each.
+  double violation(const ContactProblem& problem, const VectorXd& change) const {
+    const VectorXd u = motion + J * change;
+    double worst = 0.0, largest = motion.cwiseAbs().maxCoeff() / (J * response.asDiagonal() * J.transpose()).trace();
+    for (std::size_t i = 0; i < friction.size(); ++i) largest = std::max(largest, problem.load(i).norm());
+    for (std::size_t i = 0; i < friction.size(); ++i) {
+      const Vector3d load = problem.load(i) / largest;
+      const Vector3d moves = u.segment<3>(static_cast<Index>(3 * i)) / motion.cwiseAbs().maxCoeff();
+      const double most = friction[i] * load[0];
+      const Eigen::Vector2d across = load.tail<2>(), slip = moves.tail<2>();
+      worst = std::max({worst, -moves[0], -load[0], std::abs(load[0] * moves[0]), across.norm() - most,
+                        (slip * most + slip.norm() * across).norm()});  // what slips is opposed with all there is
+    }
+    return worst;
+  }
+};
+
+TEST(ContactProblem, RandomContactsKeepCoulombsLaw) {
+  std::mt19937 random(1);
+  int solved = 0;
+  for (int i = 0; i < 200; ++i) {
+    const RandomContacts c(random, 1 + i % 8, 6 + i % 7, i % 2 == 0 ? 1e2 : 1e6);
+    ContactProblem problem;
+    const std::size_t body = c.fill(problem);
+    if (problem.solve(1e-9, 1e-6).residual > 1e-6) continue;
+    ++solved;
+    EXPECT_LE(c.violation(problem, problem.change(body)), 2e-6) << "problem " << i;
+  }
+  EXPECT_GE(solved, 195);
+}
+
+TEST(ContactProblem, WithoutFrictionItAgreesWithTheOnlySetOfContactsThatCanPress) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Index contacts = 1 + trial % 6;
+    RandomContacts c(random, contacts, 6 + trial % 7, 1e2);
+    c.friction.assign(c.friction.size(), 0.0);
+    ContactProblem problem;
+    const std::size_t body = c.fill(problem);
+    problem.solve(1e-9, 1e-6);
+    MatrixXd N(contacts, c.J.cols());
+    VectorXd closing(contacts);
+    for (Index i = 0; i < contacts; ++i) {
+      N.row(i) = c.J.row(3 * i);
+      closing[i] = c.motion[3 * i];
+    }
+    bool found = false;
+    for (int set = 0; set < 1 << contacts && !found; ++set) {
+      std::vector<Index> pressing;
+      for (Index i = 0; i < contacts; ++i) {
+        if ((set >> i & 1) != 0) pressing.push_back(i);
+      }
+      const MatrixXd P = N(pressing, Eigen::all);
+      VectorXd change = VectorXd::Zero(c.J.cols());
+      if (!pressing.empty()) {
+        const VectorXd loads = (P * c.response.asDiagonal() * P.transpose()).ldlt().solve(VectorXd(-closing(pressing)));
+        if (loads.minCoeff() < 0.0) continue;
+        change = c.response.asDiagonal() * P.transpose() * loads;
+      }
+      if ((closing + N * change).minCoeff() < -1e-9) continue;
+      found = true;
+      EXPECT_LE((problem.change(body) - change).norm(), 1e-4 * (1.0 + change.norm())) << "trial " << trial;
+    }
+    EXPECT_TRUE(found);
   }
 }
 
-TEST(ContactProblem, WithoutFrictionNothingPullsWhatLeavesAlongTheNormal) {
-  for (const double friction : {0.0, 0.5}) {
+TEST(ContactProblem, AShortStepIsSolvedAsWellAsALongOne) {
+  for (const double shorter : {1.0, 1e-2}) {  // all motions, of 0.04 mm at first, are as much smaller
+    Boxes s = stack(10, 1e3, 3);
+    for (Boxes::Contact& c : s.contacts) c.motion *= shorter;
     ContactProblem problem;
-    const std::size_t body = problem.add_body(MatrixXd::Identity(6, 6));
-    const std::size_t contact = problem.add_contact(friction, Vector3d(2.0, 0.0, 0.0), Vector3d::Zero());
-    problem.add_part(body, MatrixXd::Identity(3, 6));
-    EXPECT_EQ(problem.solve(1e-4, 1e-6).residual, 0.0);
-    EXPECT_EQ(problem.load(contact), Vector3d::Zero());
+    s.fill(problem);
+    problem.solve(1e-4, 1e-6);
+    double carried = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) carried += problem.load(i)[0];
+    EXPECT_NEAR(carried, 1009.0 * gravity * shorter, 0.02 * 1009.0 * gravity * shorter) << shorter;
   }
+}
+
+TEST(ContactProblem, AHeavyCubeOnALightOneSharesItsWeightOut) {
+  // 1000 kg on 1 g on the ground, each contact one point: the upper carries the upper cube, the lower both.
+  const double m_light = 1e-3, m_heavy = 1e3, fall = 0.01;
+  ContactProblem problem;
+  const std::size_t light = problem.add_body(Matrix3d::Identity() / m_light);
+  const std::size_t heavy = problem.add_body(Matrix3d::Identity() / m_heavy);
+  problem.add_contact(0.5, -fall * Vector3d::UnitX(), Vector3d::Zero());
+  problem.add_part(light, Matrix3d::Identity());
+  problem.add_contact(0.5, Vector3d::Zero(), Vector3d::Zero());  // both fall alike: the upper gap stays
+  problem.add_part(heavy, Matrix3d::Identity());
+  problem.add_part(light, -Matrix3d::Identity());
+  problem.solve(1e-9, 1e-6);
+  EXPECT_NEAR(problem.load(0)[0], (m_light + m_heavy) * fall, 1e-6 * m_heavy * fall);
+  EXPECT_NEAR(problem.load(1)[0], m_heavy * fall, 1e-6 * m_heavy * fall);
+}
+
+TEST(ContactProblem, WhatOpensIsLeftAlone) {
+  for (const double friction : {0.0, 0.5}) {
+    for (const Vector3d& opens : {Vector3d(2.0, 0.0, 0.0), Vector3d(1.0, 2.0, 3.0)}) {
+      ContactProblem problem;
+      const std::size_t body = problem.add_body(MatrixXd::Identity(6, 6));
+      const std::size_t contact = problem.add_contact(friction, opens, Vector3d::Zero());
+      problem.add_part(body, MatrixXd::Identity(3, 6));
+      EXPECT_EQ(problem.solve(1e-4, 1e-6).residual, 0.0);
+      EXPECT_EQ(problem.load(contact), Vector3d::Zero());
+    }
+  }
+}
+
+TEST(ContactProblem, WallsThatLeaveNoRoomAreNotPressedApart) {
+  // A block between two walls that overlap it by 1 mm each and lean towards each other less than friction holds: any
+  // loads that balance are admissible, none makes room. It is pressed down as a hand presses it.
+  const double stiffness = 1e5, press = 1e-3, lean = 0.2;
+  ContactProblem problem;
+  const std::size_t body = problem.add_body(Vector3d::Constant(1.0 / stiffness).asDiagonal().toDenseMatrix());
+  for (const double side : {-1.0, 1.0}) {
+    for (int i = 0; i < 4; ++i) {
+      const Vector3d n(side * std::cos(lean), 0.0, std::sin(lean));
+      const Matrix3d axes = (Matrix3d() << n, Vector3d::UnitY(), n.cross(Vector3d::UnitY())).finished().transpose();
+      const Vector3d motion = axes * Vector3d(0.0, 0.0, -press);
+      problem.add_contact(0.4, motion - 1e-3 * Vector3d::UnitX(), Vector3d::Zero());
+      problem.add_part(body, axes);
+    }
+  }
+  const ContactProblem::Result result = problem.solve(1e-5, 1e-6);
+  EXPECT_GT(result.residual, 1e-6);
+  // Each iteration presses a contact by what the body resists to what is left of the overlap, at most.
+  const double once = stiffness * (press + 1e-3);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_LE(problem.load(i).norm(), 2.0 * 100.0 * once);
+}
+
+TEST(ContactProblem, PartsOfOneBodyAddUp) {
+  ContactProblem once, twice;
+  const Vector3d motion(-1.0, 0.3, 0.0);
+  for (ContactProblem* problem : {&once, &twice}) {
+    problem->add_body(Matrix3d::Identity());
+    problem->add_contact(0.5, motion, Vector3d::Zero());
+  }
+  once.add_part(0, 3.0 * Matrix3d::Identity());
+  twice.add_part(0, Matrix3d::Identity());
+  twice.add_part(0, 2.0 * Matrix3d::Identity());
+  once.solve(1e-9, 1e-6);
+  twice.solve(1e-9, 1e-6);
+  EXPECT_EQ(once.load(0), twice.load(0));
 }
 
 TEST(ContactProblem, SticksBelowTheAngleOfFrictionAndSlidesAbove) {

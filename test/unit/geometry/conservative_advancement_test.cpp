@@ -29,7 +29,7 @@ TEST(ClearWay, NoBoxIsDeeperOnItThanTheTolerance) {
     const StraightMotion motion{own.X.translation() + random.vector(0.2), random.vector(0.5), random.vector(2.0)};
     const double tolerance = i % 2 ? 1e-3 : 0.0;
     if (gap_between(own, other).gap < -tolerance) continue;
-    const double clear = clear_of(own, motion, other, tolerance, 1.0);
+    const double clear = free_fraction_to(own, motion, other, tolerance, 1.0);
     ASSERT_GE(clear, 0.0);
     ASSERT_LE(clear, 1.0);
     if (clear < 1.0) ++cut;
@@ -46,17 +46,17 @@ TEST(ClearWay, StraightOntoAFaceItIsExact) {
   const OutlineBox own{RigidTransform(Eigen::Translation3d(0, 0, 0.5)), Vector3d::Constant(0.1), true};
   const OutlineBox other{RigidTransform::Identity(), Vector3d(1.0, 1.0, 0.1), true};
   const StraightMotion motion{own.X.translation(), Vector3d(0.2, 0.1, -1.0), Vector3d::Zero()};
-  EXPECT_NEAR(clear_of(own, motion, other, 0.0, 1.0), 0.3, 1e-12);
-  EXPECT_NEAR(clear_of(own, motion, other, 0.01, 1.0), 0.31, 1e-12);
-  EXPECT_NEAR(clear_above(own, motion, {Vector3d::UnitZ(), 0.1}, 0.0, 1.0), 0.3, 1e-12);
-  EXPECT_EQ(clear_of(own, motion, other, 0.0, 0.2), 0.2);
+  EXPECT_NEAR(free_fraction_to(own, motion, other, 0.0, 1.0), 0.3, 1e-12);
+  EXPECT_NEAR(free_fraction_to(own, motion, other, 0.01, 1.0), 0.31, 1e-12);
+  EXPECT_NEAR(free_fraction_above(own, motion, {Vector3d::UnitZ(), 0.1}, 0.0, 1.0), 0.3, 1e-12);
+  EXPECT_EQ(free_fraction_to(own, motion, other, 0.0, 0.2), 0.2);
 }
 
 TEST(ClearWay, SlidingAndTurningFlushOnAFaceIsFree) {
   const OutlineBox own{RigidTransform(Eigen::Translation3d(0, 0, 0.2)), Vector3d::Constant(0.1), true};
   const OutlineBox other{RigidTransform::Identity(), Vector3d(1.0, 1.0, 0.1), true};
   const StraightMotion motion{own.X.translation(), Vector3d(0.5, 0.0, 0.0), Vector3d(0.0, 0.0, 3.0)};
-  EXPECT_EQ(clear_of(own, motion, other, 1e-9, 1.0), 1.0);
+  EXPECT_EQ(free_fraction_to(own, motion, other, 1e-9, 1.0), 1.0);
 }
 
 }  // namespace

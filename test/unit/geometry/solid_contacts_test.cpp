@@ -154,18 +154,19 @@ TEST(Solids, OverlapHoweverTheyMeet) {
 TEST(Solids, WhatIsDeepComesOutWhereItWentIn) {
   const Vector3d up = Vector3d::UnitZ();
   const Solid plate{Box{{0.3, 0.3, 5e-4}}}, rod{Cylinder{0.02, 0.1}};
-  const auto below = way_out(plate, Vector3d(0.02, 0.03, 2.5e-4 - 3e-3), up, 3.2e-3, 1e-3);  // and out on the far side
+  const auto below =
+      exit_contact(plate, Vector3d(0.02, 0.03, 2.5e-4 - 3e-3), up, 3.2e-3, 1e-3);  // and out on the far side
   ASSERT_TRUE(below);
   EXPECT_NEAR(below->gap, -3e-3, 1e-12);
   EXPECT_NEAR(below->p_W.z(), 2.5e-4, 1e-12);
   EXPECT_EQ(below->n_W, up);
-  EXPECT_FALSE(way_out(plate, Vector3d(0.2, 0.0, -1e-3), up, 1.25e-3, 1e-3));  // beside it
-  EXPECT_FALSE(way_out(cube, Vector3d(0.0, 0.0, 0.03), up, 2e-3, 1e-3));       // not there
-  const auto side = way_out(rod, Vector3d(0.018, 0.0, 0.0), Vector3d::UnitX(), 2e-3, 1e-3);
+  EXPECT_FALSE(exit_contact(plate, Vector3d(0.2, 0.0, -1e-3), up, 1.25e-3, 1e-3));  // beside it
+  EXPECT_FALSE(exit_contact(cube, Vector3d(0.0, 0.0, 0.03), up, 2e-3, 1e-3));       // not there
+  const auto side = exit_contact(rod, Vector3d(0.018, 0.0, 0.0), Vector3d::UnitX(), 2e-3, 1e-3);
   ASSERT_TRUE(side);
   EXPECT_NEAR(side->gap, -2e-3, 1e-12);
   EXPECT_NEAR(side->n_W.x(), 1.0, 1e-12);
-  const auto end = way_out(rod, Vector3d(0.018, 0.0, -0.048), -up, 2e-3, 1e-3);
+  const auto end = exit_contact(rod, Vector3d(0.018, 0.0, -0.048), -up, 2e-3, 1e-3);
   ASSERT_TRUE(end);
   EXPECT_NEAR(end->gap, -2e-3, 1e-12);
   EXPECT_NEAR(end->n_W.z(), -1.0, 1e-12);

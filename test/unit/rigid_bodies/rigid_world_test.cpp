@@ -7,6 +7,7 @@
 
 #include "spring_workbench/geometry/surface.h"
 #include "support/bodies.h"
+#include "support/meshes.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
@@ -198,6 +199,30 @@ TEST(RigidWorld, InclineHoldsBelowTheAngleOfFriction) {
       // a = g (sin − μ cos)
       const double a = g * (std::sin(angle) - mu * std::cos(angle));
       EXPECT_NEAR(slid, 0.5 * a * 100.0, 0.05 * 0.5 * a * 100.0);
+    }
+  }
+}
+
+TEST(RigidWorld, WhatPassesAMillimetreBesideAnEdgeIsNotFelt) {
+  for (const double radius : {0.005, 0.02, 0.1}) {
+    for (const geometry::Geometry& shape :
+         {geometry::Geometry(geometry::Sphere{radius}), geometry::Geometry(test_support::sphere_mesh(radius, 10)),
+          geometry::Geometry(geometry::Cylinder{radius, 2.0 * radius})}) {
+      for (int i = 0; i < 24; ++i) {  // where it is when a step begins
+        scene::Body passes =
+            sphere("passes", radius, 0.1, Vector3d(0.051 + radius, 0, 1.07 + radius + 1.6e-4 * i), 0.3, 0.0);
+        passes.collision[0].geometry = shape;
+        scene::Scene s = scene_of({box("box", Vector3d::Constant(0.1), 1.0, Vector3d(0, 0, 1), 0.3), passes},
+                                  scene::ContactMode::dynamic, 0.3);
+        s.gravity = 0.0;
+        const auto world = make_rigid_world(s);
+        world->place(0, s.bodies[0].X_WO, Twist(), true);
+        world->place(1, passes.X_WO, moving(Vector3d(0, 0, -1.92)), true);
+        run(*world, 0.15 + 2.0 * radius, 2e-3);
+        EXPECT_LT(world->pose(1).translation().z(), 0.95 - radius);
+        EXPECT_LT((world->velocity(1).linear - Vector3d(0, 0, -1.92)).norm(), 1e-12) << radius << ' ' << shape.index();
+        EXPECT_EQ(world->velocity(0).linear.norm(), 0.0);
+      }
     }
   }
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/geometry/shapes.h"
 
-namespace spring_workbench::collision {
+namespace spring_workbench::geometry {
 
 /// The point of a surface that is nearest to a query point, in the frame of the shape.
 struct NearestPoint {
@@ -12,11 +12,11 @@ struct NearestPoint {
 };
 
 // Closed formulas. Where several points are as near, one of them is taken.
-NearestPoint nearest_point(const geometry::Box& box, const Vector3d& q);
-NearestPoint nearest_point(const geometry::Sphere& sphere, const Vector3d& q);
-NearestPoint nearest_point(const geometry::Cylinder& cylinder, const Vector3d& q);
+NearestPoint nearest_point(const Box& box, const Vector3d& q);
+NearestPoint nearest_point(const Sphere& sphere, const Vector3d& q);
+NearestPoint nearest_point(const Cylinder& cylinder, const Vector3d& q);
 
 /// The point of the triangle a, b, c that is nearest to `q`.
 Vector3d nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& q);
 
-}  // namespace spring_workbench::collision
+}  // namespace spring_workbench::geometry

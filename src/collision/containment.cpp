@@ -1,9 +1,9 @@
-#include "swallowed.h"
+#include "containment.h"
 
 #include <limits>
 #include <utility>
 
-#include "nearest_point.h"
+#include "spring_workbench/geometry/nearest_point.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/moving_frames.h"
 
@@ -13,7 +13,6 @@ namespace {
 /// A point of the shape's surface, in its frame.
 Vector3d point_of(const geometry::Geometry& geometry) {
   if (const auto* box = std::get_if<geometry::Box>(&geometry)) return 0.5 * box->size;
-  if (const auto* sphere = std::get_if<geometry::Sphere>(&geometry)) return Vector3d(sphere->radius, 0.0, 0.0);
   if (const auto* cylinder = std::get_if<geometry::Cylinder>(&geometry)) return Vector3d(cylinder->radius, 0.0, 0.0);
   return std::get<geometry::MeshPtr>(geometry)->vertices.front();
 }
@@ -26,10 +25,11 @@ bool is_inside(const geometry::Geometry& inner, const RigidTransform& X_WI, cons
 }
 
 /// The point of the surface that is nearest to `q`, and its triangle.
-std::pair<Vector3d, int> nearest_point(const geometry::Surface& surface, const Vector3d& q) {
+std::pair<Vector3d, int> nearest_surface_point(const geometry::Surface& surface, const Vector3d& q) {
   std::pair<Vector3d, int> nearest{Vector3d::Constant(std::numeric_limits<double>::infinity()), 0};
   for (int t = 0; t < static_cast<int>(surface.normals.size()); ++t) {
-    const Vector3d p = nearest_on_triangle(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2), q);
+    const Vector3d p =
+        geometry::nearest_on_triangle(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2), q);
     if ((p - q).norm() < (nearest.first - q).norm()) nearest = {p, t};
   }
   return nearest;
@@ -49,7 +49,7 @@ void append_containment(const geometry::Geometry& inner, const RigidTransform& X
   const RigidTransform& X_WO = outer_surface.X_WS;
   if (!is_inside(inner, X_WI, outer, X_WO)) return;
   const Vector3d middle_O = X_WO.inverse() * geometry::bounding_box(inner, X_WI).center();
-  const auto [p_O, triangle] = nearest_point(outer_surface.surface, middle_O);
+  const auto [p_O, triangle] = nearest_surface_point(outer_surface.surface, middle_O);
   const Vector3d n_W = X_WO.linear() * outer_surface.surface.normal(triangle);
   const Vector3d p_W = X_WO * p_O;
   const double depth = n_W.dot(p_W) - lowest_along(inner, X_WI, n_W);

@@ -1,4 +1,4 @@
-#include "thin_out.h"
+#include "manifold_reduction.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "nearest_point.h"
+#include "spring_workbench/geometry/nearest_point.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace spring_workbench::collision {
+namespace spring_workbench::geometry {
 namespace {
 
 NearestPoint from_outside(const Vector3d& p, const Vector3d& q) {
@@ -20,7 +20,7 @@ Vector3d nearest_on_segment(const Vector3d& a, const Vector3d& b, const Vector3d
 
 }  // namespace
 
-NearestPoint nearest_point(const geometry::Box& box, const Vector3d& q) {
+NearestPoint nearest_point(const Box& box, const Vector3d& q) {
   const Vector3d half = 0.5 * box.size;
   const Vector3d clamped = q.cwiseMin(half).cwiseMax(-half);
   if (clamped != q) return from_outside(clamped, q);
@@ -32,13 +32,13 @@ NearestPoint nearest_point(const geometry::Box& box, const Vector3d& q) {
   return nearest;
 }
 
-NearestPoint nearest_point(const geometry::Sphere& sphere, const Vector3d& q) {
+NearestPoint nearest_point(const Sphere& sphere, const Vector3d& q) {
   const double distance = q.norm();
   const Vector3d n = distance > 0.0 ? Vector3d(q / distance) : Vector3d(Vector3d::UnitZ());
   return {sphere.radius * n, n, distance - sphere.radius};
 }
 
-NearestPoint nearest_point(const geometry::Cylinder& cylinder, const Vector3d& q) {
+NearestPoint nearest_point(const Cylinder& cylinder, const Vector3d& q) {
   const double half = 0.5 * cylinder.length;
   const double across = std::hypot(q.x(), q.y());
   const Vector3d radial = across > 0.0 ? Vector3d(q.x() / across, q.y() / across, 0.0) : Vector3d(Vector3d::UnitX());
@@ -64,4 +64,4 @@ Vector3d nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3
   return nearest;
 }
 
-}  // namespace spring_workbench::collision
+}  // namespace spring_workbench::geometry
