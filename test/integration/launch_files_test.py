@@ -21,7 +21,7 @@ import yaml
 from spring_workbench.msg import Change, ForkState, ObjectStates, StepReport, TaskState
 
 from screen import screen
-from stack import Launched, Listener, make_bag, wait_for
+from stack import Launched, Listener, make_bag, slave_api, wait_for
 
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 
@@ -119,12 +119,22 @@ class LaunchFiles(unittest.TestCase):
             self.assertEqual(sum(m.steps_rejected for m in steps.messages), 0)
         shutil.rmtree(folder)
 
+    def recorder_is_connected(self):
+        """Whether rosbag listens to both topics that a replay needs."""
+        try:
+            connections = slave_api("/manipulation").getBusInfo(rospy.get_name())[2]
+        except Exception:  # the node is not there yet
+            return False
+        recorded = {connection[4] for connection in connections if connection[1] == "/record"}
+        return recorded >= {"/manipulation/accepted", "/manipulation/changes"}
+
     def test_a_recorded_run_is_replayed(self):
         rospy.set_param("/use_sim_time", False)
         objects, changes = Listener("manipulation/objects", ObjectStates), Listener("manipulation/changes", Change)
         with tempfile.TemporaryDirectory() as folder:
             record = "record:=" + os.path.join(folder, "run")
             with Launched("workbench.launch", "rviz:=false", "pause:=0", record):
+                wait_for(self.recorder_is_connected, "the recorder")
                 objects.next(lambda m: any(o.held for o in m.objects), "an object to be held")
                 for _ in range(2):  # the recorder may lose what comes as it is ended
                     changes.next(lambda m: not m.state, "a comparison of states after that")

@@ -33,11 +33,13 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
 }
 
 void StatePublisher::publish_journal(live::SimulationRunner& runner) {
-  const std::uint32_t listeners =
-      std::min(accepted_publisher_.getNumSubscribers(), changes_publisher_.getNumSubscribers());
-  // A late subscriber starts with the current state.
-  if (listeners > journal_listeners_) runner.keep_journal(true);
-  if (listeners == 0 && journal_listeners_ > 0) runner.keep_journal(false);
+  const std::array<std::uint32_t, 2> listeners = {accepted_publisher_.getNumSubscribers(),
+                                                  changes_publisher_.getNumSubscribers()};
+  const auto are_heard = [](const auto& topics) { return topics[0] > 0 && topics[1] > 0; };
+  const bool has_new = listeners[0] > journal_listeners_[0] || listeners[1] > journal_listeners_[1];
+  // A late subscriber starts with the current state, whichever topic it was connected to first.
+  if (are_heard(listeners) && has_new) runner.keep_journal(true);
+  if (!are_heard(listeners) && are_heard(journal_listeners_)) runner.keep_journal(false);
   journal_listeners_ = listeners;
   for (const live::Entry& entry : runner.take_journal()) {
     const std_msgs::Header header = header_at(ros_common::stamp_of(entry.stamp));
