@@ -34,44 +34,37 @@ ReferenceSolution reference_from_outputs(const Scenario& scene, std::vector<Vect
 
 namespace {
 
-/// Reference from `outputs(tolerance)`; its uncertainty is the distance from the outputs at ten times the tolerance.
-template <typename Outputs>
-ReferenceSolution reference_by_tolerance(const Scenario& scene, Outputs&& outputs) {
-  ReferenceSolution reference = reference_from_outputs(scene, outputs(kFineTolerance), 0.0);
-  reference.uncertainty = output_error(scene, reference, outputs(10.0 * kFineTolerance));
-  return reference;
+std::vector<Vector3d> six_dof_outputs(const Scenario& scene, double tolerance) {
+  if (!scene.samples) return SceneSolver(scene, SceneCoordinates::deflection, &make_radau).solve(tolerance);
+  std::vector<Vector3d> outputs;
+  for (const RigidTransform& X : fine_poses(rod_case(scene), "bushing", tolerance))
+    outputs.push_back(scene_output(scene, X));
+  return outputs;
 }
 
-ReferenceSolution six_dof_reference(const Scenario& scene) {
-  if (scene.samples) {
-    const RodCase one = rod_case(scene);
-    return reference_by_tolerance(scene, [&](double tolerance) {
-      std::vector<Vector3d> outputs;
-      for (const RigidTransform& X : fine_poses(one, "bushing", tolerance)) outputs.push_back(scene_output(scene, X));
-      return outputs;
-    });
-  }
-  SceneSolver solver(scene, SceneCoordinates::deflection, &make_radau);
-  return reference_by_tolerance(scene, [&](double tolerance) { return solver.solve(tolerance); });
-}
-
-ReferenceSolution single_reference(const Scenario& scene) {
-  constexpr double rounding = 1e-15;
-  if (scene.samples) return reference_from_outputs(scene, exact_outputs_on_samples(scene), rounding);
+std::vector<Vector3d> exact_outputs(const Scenario& scene) {
+  if (scene.samples) return exact_outputs_on_samples(scene);
   std::vector<Vector3d> outputs;
   for (const double t : output_times(scene)) outputs.push_back(exact_output(scene, t));
-  return reference_from_outputs(scene, std::move(outputs), rounding);
+  return outputs;
+}
+
+/// The outputs with the hand that was sampled, for a difference of which three digits matter.
+std::vector<Vector3d> outputs_of_function(Scenario scene) {
+  constexpr double tolerance = 1e-9;
+  scene.samples.reset();
+  return scene.kind == SceneKind::six_dof ? six_dof_outputs(scene, tolerance) : exact_outputs(scene);
 }
 
 }  // namespace
 
 ReferenceSolution reference_solution(const Scenario& scene) {
-  ReferenceSolution reference = scene.kind == SceneKind::six_dof ? six_dof_reference(scene) : single_reference(scene);
-  if (scene.samples) {
-    Scenario known = scene;
-    known.samples.reset();
-    reference.hand_error = output_error(scene, reference, reference_solution(known).outputs);
-  }
+  constexpr double rounding = 1e-15;
+  const bool is_exact = scene.kind != SceneKind::six_dof;
+  ReferenceSolution reference =
+      reference_from_outputs(scene, is_exact ? exact_outputs(scene) : six_dof_outputs(scene, kFineTolerance), rounding);
+  if (!is_exact) reference.uncertainty = output_error(scene, reference, six_dof_outputs(scene, 10.0 * kFineTolerance));
+  if (scene.samples) reference.hand_error = output_error(scene, reference, outputs_of_function(scene));
   return reference;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -212,13 +213,36 @@ StabilityPlan stability_plan(bool quick) {
   return plan;
 }
 
+namespace {
+
+/// The pairs of values, by their numbers, that the cells so far contain.
+class PairsOfValues {
+ public:
+  /// Whether a cell with these values contains a pair that no earlier one did.
+  bool has_new(const std::vector<std::size_t>& values) {
+    bool is_new = false;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) is_new = seen_.emplace(a, b, values[a], values[b]).second || is_new;
+    }
+    return is_new;
+  }
+
+ private:
+  std::set<std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>> seen_;
+};
+
+}  // namespace
+
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string& integrator, double stiffness_factor) {
   const bool is_default = integrator == validation::name_of(dynamics::DynamicsSettings().integrator);
   std::mt19937 random(20);
-  const auto any = [&](const auto& values) { return values[random() % values.size()]; };
+  std::vector<std::size_t> numbers;
+  const auto any = [&](const auto& values) { return values[numbers.emplace_back(random() % values.size())]; };
+  PairsOfValues pairs;
   std::vector<StabilityCell> cells;
   for (std::size_t i = 0; i < (is_default ? plan.cells : plan.cells_of_others); ++i) {
     StabilityCell cell;
+    numbers.clear();
     cell.stiffness_factor = any(plan.stiffness_factors);
     cell.mass = any(plan.masses);
     cell.step = any(plan.steps);
@@ -227,7 +251,8 @@ std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string
     cell.hand = any(plan.hands);
     cell.tail = any(plan.tails);
     cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
-    if (cell.stiffness_factor == stiffness_factor) cells.push_back(cell);
+    const bool is_needed = pairs.has_new(numbers) || is_default;
+    if (is_needed && cell.stiffness_factor == stiffness_factor) cells.push_back(cell);
   }
   std::stable_sort(cells.begin(), cells.end(), [](const StabilityCell& a, const StabilityCell& b) {
     return std::tuple(a.mass, a.step, a.damping_ratio) < std::tuple(b.mass, b.step, b.damping_ratio);

@@ -11,7 +11,9 @@
 
 namespace spring_workbench::benchmark {
 
-/// The varied parameters. Cells are random combinations (seeded), enough to contain every pair of values.
+/// The varied parameters. Cells are random combinations (seeded), enough to contain every pair of values. Another
+/// integrator than the default one has fewer: of the first `cells_of_others` those that contain a pair of values which
+/// no earlier one has.
 struct StabilityPlan {
   std::vector<std::string> integrators;
   std::vector<std::string> shapes;
@@ -22,8 +24,8 @@ struct StabilityPlan {
   std::vector<rod::ForkDofs> dofs;
   std::vector<MapHand> hands;
   std::vector<MapTail> tails;
-  std::size_t cells = 4000;           ///< number for the default integrator and each shape
-  std::size_t cells_of_others = 500;  ///< number for each other integrator: the first of these
+  std::size_t cells = 2000;           ///< number for the default integrator and each shape
+  std::size_t cells_of_others = 500;  ///< number of them among which those of each other integrator are chosen
   double seconds = 10.0;              ///< duration of the hand's tail [s]
   std::size_t long_one = 200;         ///< one cell in this many has six times that duration
 };

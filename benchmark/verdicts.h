@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct Verdict {
   std::string target;
   std::string measured;
   enum class Result { pass, fail, not_measured } result = Result::not_measured;
+  /// For run times that are judged, the ratio of the other's to ours, or a lower bound (see Pair::ratio()); the
+  /// smallest one if they are compared at several errors.
+  std::optional<double> ratio = {};
 };
 std::string name_of(Verdict::Result result);
 

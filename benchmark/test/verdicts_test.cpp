@@ -311,6 +311,41 @@ TEST(Verdicts, OneCellThatFailsByTheMapsOwnRuleIsEnoughForTheMapNotToHold) {
   EXPECT_EQ(result_of(measured, "Stability map, rk4"), kNone);
 }
 
+TEST(Verdicts, TheDragIsComparedAtTheCheapestRunsThatKeepLagAndDepth) {
+  const auto drag = [](const std::string& method, double time, double lag_error, double depth) {
+    DragRow row;
+    row.method = method;
+    row.finite = true;
+    row.lag_error = lag_error;
+    row.penetration = depth;
+    row.cpu_us_per_simulated_second = time;
+    return row;
+  };
+  for (const auto& [time, lag_error, depth, ratio] :
+       {std::tuple{50.0, 0.9e-3, 0.9e-5, 0.5}, std::tuple{110.0, 0.9e-3, 0.9e-5, 1.1},
+        std::tuple{50.0, 1.1e-3, 0.0, 10.0}, std::tuple{50.0, 0.0, 1.1e-5, 10.0}}) {
+    Measurements measured;
+    measured.contact.drags = {drag("stop", 100.0, 1e-4, 0.0), drag("stop", 10.0, 1.0, 0.0),
+                              drag("ode_erp_cfm", time, lag_error, depth), drag("dart_explicit", 1000.0, 0.0, 0.0)};
+    measured.contact.drags.push_back(drag("bullet_explicit", 1.0, 0.0, 0.0));
+    measured.contact.drags.back().turns = false;  // an easier scene
+    const Verdict verdict = verdict_on(measured, "Drag, contact stop", "best engine");
+    EXPECT_NEAR(verdict.ratio.value_or(0.0), ratio, 1e-9) << verdict.measured;
+    EXPECT_EQ(verdict.result, ratio > 1.0 ? kPass : kFail);
+  }
+}
+
+TEST(Verdicts, TheRatioOfRunTimesIsAColumnOfTheTable) {
+  Measurements measured;
+  add_line("exponential", 1.0, 10.0, measured.scenes);
+  add_line("hand_rk4", 1.0, 5.0, measured.scenes);
+  const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "every peer");
+  EXPECT_NEAR(verdict.ratio.value_or(0.0), 0.5, 1e-9);
+  const std::string csv = verdicts_csv({verdict, verdict_on(measured, "report")});
+  EXPECT_NE(csv.find(",FAIL,0.5\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",PASS,\n"), std::string::npos) << csv;
+}
+
 TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
   Measurements measured;
   measured.extremes.assign(2, {"stack", "stop", 1e3, 0.02, 0, {}});
