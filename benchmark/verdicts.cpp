@@ -156,16 +156,21 @@ void one_step_per_sample(const Measurements& m, const std::string& scene, std::v
   }
 }
 
+/// The errors at which all methods are compared.
+const std::vector<ErrorTarget>& targets() {
+  static const std::vector<ErrorTarget> all = {
+      {1e-6, kOfAmplitude}, {1e-3, kOfDeflection}, {1e-9, kOfAmplitude}, {1e-12, kOfAmplitude}};
+  return all;
+}
+
 void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {
   const ErrorRow& first = scene.rows[0];
   const bool sampled = first.hand == "samples";
-  const std::vector<ErrorTarget> targets = {
-      {1e-6, kOfAmplitude}, {1e-3, kOfDeflection}, {1e-9, kOfAmplitude}, {1e-12, kOfAmplitude}};
-  for (const ErrorTarget& target : targets) out.push_back(against(scene, target, "every peer", is_any, 1.0));
+  for (const ErrorTarget& target : targets()) out.push_back(against(scene, target, "every peer", is_any, 1.0));
   if (sampled) out.push_back(at_every_error(scene, "every peer"));
   if (first.scene != "C") return;
   const bool stiff = first.stiffness_factor >= 100.0;
-  for (const ErrorTarget& target : {targets[0], targets[1]}) {
+  for (const ErrorTarget& target : {targets()[0], targets()[1]}) {
     out.push_back(against(scene, target, "the best engine", is_engine, stiff ? 50.0 : 20.0));
     out.push_back(against(scene, target, "CVODE in any form", is_cvode, stiff ? 20.0 : 2.0));
   }
@@ -207,9 +212,8 @@ void rods_against_peers(const Measurements& m, std::vector<Verdict>& out) {
                [](const ErrorRow& row) { return row.shape == "linear" && row.error_over_tolerance == 0.0; });
   for (const SceneRows& rod : by_scene(rows)) {
     if (std::all_of(rod.rows.begin(), rod.rows.end(), [](const ErrorRow& row) { return row.ours; })) continue;
-    for (const ErrorTarget& target : {ErrorTarget{1e-6, kOfAmplitude}, ErrorTarget{1e-3, kOfDeflection}}) {
+    for (const ErrorTarget& target : targets())
       out.push_back(against(rod, target, "every general solver", is_any, 1.0));
-    }
     out.push_back(at_every_error(rod, "every general solver"));
   }
 }
