@@ -1,6 +1,7 @@
 #include "benchmark/comparison.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -11,15 +12,14 @@ constexpr const char* kOurs = "exponential";
 
 /// Computes Pair::peer_beyond, for errors that the curve of `method` does not reach.
 double end_of_line(const std::vector<ErrorRow>& rows, const std::string& method) {
-  const ErrorRow *last = nullptr, *best = nullptr;
-  for (const ErrorRow& row : rows) {
-    if (row.method != method) continue;
+  std::vector<ErrorRow> line;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(line),
+               [&](const ErrorRow& row) { return row.method == method; });
+  for (const ErrorRow& row : line) {
     if (row.given_up) return row.wall_us_per_simulated_second;
-    last = &row;
-    if (row.finite && (best == nullptr || row.error < best->error)) best = &row;
   }
-  const bool still_coming_down = last != nullptr && last == best;  // every run succeeded and reduced the error
-  return still_coming_down ? last->wall_us_per_simulated_second : std::numeric_limits<double>::infinity();
+  const bool is_known = line.empty() || !line.back().finite || has_levelled_off(line);
+  return is_known ? std::numeric_limits<double>::infinity() : line.back().wall_us_per_simulated_second;
 }
 
 /// Whether errors of this size are significant for `method`: for one that is measured against its own limit, down to

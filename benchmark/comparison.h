@@ -26,8 +26,8 @@ struct Pair {
   std::string peer;
   double error = 0.0;                     ///< error at which they are compared, in the target's measure
   std::optional<double> ours, peer_time;  ///< [µs per simulated second]; none if the error is not reached
-  /// Lower bound of the peer's run time if it does not reach the error, because its curve was still falling where it
-  /// ended (time limit or finest setting) [µs per simulated second]; infinite if its curve has levelled off.
+  /// Lower bound of the peer's run time if it does not reach the error, but its curve has not levelled off where it
+  /// ended (time limit or finest setting) [µs per simulated second]; infinite if it has, or if the peer failed there.
   double peer_beyond = 0.0;
 
   /// Ratio of the peer's run time to ours, or a lower bound if its curve ended before. Infinite if only ours reaches

@@ -223,12 +223,7 @@ bool is_compared(const ErrorRow& row) {
   return !row.ours || row.method == validation::name_of(dynamics::DynamicsSettings().integrator);
 }
 
-bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
-  const ErrorRow& last = rows.back();
-  if (!last.finite) return false;
-  if (1e-6 * last.wall_us_per_simulated_second > longest_run || last.error <= 2.0 * last.reference_uncertainty) {
-    return true;
-  }
+bool has_levelled_off(const std::vector<ErrorRow>& rows) {
   double best = std::numeric_limits<double>::infinity();
   int without_gain = 0;
   for (const ErrorRow& row : rows) {
@@ -236,7 +231,16 @@ bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
     without_gain = row.error < 0.8 * best ? 0 : without_gain + 1;
     best = std::min(best, row.error);
   }
-  return without_gain >= 3 && last.error_over_hand_amplitude < 1e-2;
+  return without_gain >= 3;
+}
+
+bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
+  const ErrorRow& last = rows.back();
+  if (!last.finite) return false;
+  if (1e-6 * last.wall_us_per_simulated_second > longest_run || last.error <= 2.0 * last.reference_uncertainty) {
+    return true;
+  }
+  return last.tolerance == 0.0 && has_levelled_off(rows) && last.error_over_hand_amplitude < 1e-2;
 }
 
 void take_turns(const std::vector<std::function<bool()>>& lines) {

@@ -81,9 +81,12 @@ ReferenceSolution own_solution(const Method& method, const Scenario& scene, int 
 /// Whether the row's run time is used in comparisons: for every peer and for our default integrator.
 bool is_compared(const ErrorRow& row);
 
+/// Whether the last three of these `rows` that are finite, finest last, have not reduced the error.
+bool has_levelled_off(const std::vector<ErrorRow>& rows);
+
 /// Whether a curve with these `rows`, finest last, needs no finer setting: its last run took longer than `longest_run`
-/// [s per simulated second], it has reached the uncertainty of its reference, or three settings in a row have not
-/// reduced its error.
+/// [s per simulated second], it has reached the uncertainty of its reference, or it has levelled off with the step. A
+/// tolerance has no effect as long as one step per sample keeps it, so all of them are run.
 bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run);
 
 /// Measures curves in turns: calls each for its next row until it returns false.

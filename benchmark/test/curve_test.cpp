@@ -84,6 +84,9 @@ TEST(ErrorTable, ALineEndsAtItsFloorAtItsReferenceOrWhenItTakesTooLong) {
   }
   rows.push_back(row("first order", 1.0, error * 2.0));
   EXPECT_TRUE(line_is_over(rows, 1.0));
+  // Tolerances that one step per sample keeps have no effect, and finer ones do.
+  for (ErrorRow& one : rows) one.tolerance = 1e-3;
+  EXPECT_FALSE(line_is_over(rows, 1.0));
   EXPECT_TRUE(line_is_over({row("slow", 2e6, 1e-3)}, 1.0));
   rows = {row("exact", 1.0, 1e-9)};
   rows[0].reference_uncertainty = 1e-9;
