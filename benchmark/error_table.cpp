@@ -51,8 +51,8 @@ ErrorTablePlan error_table_plan(bool quick) {
   for (int digits = 0; digits <= 12; digits += quick ? 3 : 1) plan.tolerances.push_back(std::pow(10.0, -digits));
   plan.own_solution_steps = quick ? 32 : 64;
   plan.longest_run = quick ? 0.002 : 0.01;
-  // On samples, engines are to be fifty times slower than ours, which take 0.4 ms.
-  plan.longest_run_on_samples = quick ? 0.002 : 0.02;
+  // Engines are to be fifty times slower than ours, which take 0.4 ms to a thousandth of the deflection.
+  plan.longest_coarse_run = quick ? 0.002 : 0.02;
   plan.repetition = {1, quick ? 0.0025 : 0.005};
   return plan;
 }
@@ -136,8 +136,11 @@ class Line {
   /// Measures the next row; returns false if there is none.
   bool advance() {
     if (rows_.size() == settings_.size()) return false;
-    const double longest = scene_.samples ? plan_.longest_run_on_samples : plan_.longest_run;
-    if (!rows_.empty() && (rows_.back().given_up || line_is_over(rows_, longest))) return false;
+    if (!rows_.empty()) {
+      const bool is_coarse = scene_.samples && rows_.back().error_over_largest_deflection > 1e-3;
+      const double longest = is_coarse ? plan_.longest_coarse_run : plan_.longest_run;
+      if (rows_.back().given_up || line_is_over(rows_, longest)) return false;
+    }
     rows_.push_back(row(settings_[rows_.size()]));
     return true;
   }

@@ -19,7 +19,8 @@ struct ErrorTablePlan {
   std::vector<double> tolerances;     ///< methods with a tolerance
   int own_solution_steps = 0;         ///< steps per output of the coarsest of the three runs of own_solution()
   double longest_run = 0.025;         ///< a curve ends with the first run that takes longer [s per simulated second]
-  double longest_run_on_samples = 0.025;  ///< the same if the hand is sampled [s per simulated second]
+  double longest_coarse_run = 0.025;  ///< the same if the hand is sampled and the error still above 1e-3 of the largest
+                                      ///< deflection [s per simulated second]
   Repetition repetition;
   double run_limit = 1.0;    ///< limit of a run with its repetitions; it is then given up, and so are finer ones [s]
   double time_limit = 20.0;  ///< limit of a run for own_solution() [s]
