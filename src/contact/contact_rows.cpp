@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "spring_workbench/friction/surfaces.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::contact {
@@ -35,12 +36,31 @@ Eigen::Matrix<double, 3, 6> jacobian(const Matrix3d& axes, const ContactRow& row
   return (Eigen::Matrix<double, 3, 6>() << axes.transpose(), -axes.transpose() * math::skew(row.lever_W)).finished();
 }
 
-double indentation(const std::vector<ContactRow>& rows, const ContactRow& at) {
-  double load = 0.0;
-  for (const ContactRow& row : rows) {
-    if (row.point.other == at.point.other) load += row.load_W.dot(row.point.n_W) * row.point.n_W.dot(at.point.n_W);
+std::vector<std::size_t> surfaces_of(const std::vector<ContactRow>& rows) {
+  std::vector<std::size_t> surfaces;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::size_t first = 0;
+    while (first < i && (surfaces[first] != first || rows[first].point.other != rows[i].point.other ||
+                         !friction::Surfaces::is_one(rows[first].point.n_W, rows[i].point.n_W))) {
+      ++first;
+    }
+    surfaces.push_back(first);
   }
-  return at.compliance * load;
+  return surfaces;
+}
+
+std::vector<double> indentations(const std::vector<ContactRow>& rows) {
+  const std::vector<std::size_t> surfaces = surfaces_of(rows);
+  std::vector<Vector3d> loads(rows.size(), Vector3d::Zero());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Vector3d& n = rows[i].point.n_W;
+    loads[surfaces[i]] += rows[i].load_W.dot(n) * n;
+  }
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    depths.push_back(rows[i].compliance * loads[surfaces[i]].dot(rows[i].point.n_W));
+  }
+  return depths;
 }
 
 void set_impulse_compliance(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,

@@ -22,9 +22,11 @@ Matrix3d axes_of(const ContactRow& row);
 /// Motion of a contact's point along its axes per motion of the body.
 Eigen::Matrix<double, 3, 6> jacobian(const Matrix3d& axes, const ContactRow& row);
 
-/// Returns by how much the materials at a contact are indented along its normal: their compliance times the normal
-/// loads of all contacts with the same body, which indent one surface together.
-double indentation(const std::vector<ContactRow>& rows, const ContactRow& at);
+/// Returns, for each row, the first one with the same body on the same side: such contacts indent one surface.
+std::vector<std::size_t> surfaces_of(const std::vector<ContactRow>& rows);
+/// Returns by how much the materials at each contact are indented along its normal: their compliance times the normal
+/// loads of all contacts that indent the same surface.
+std::vector<double> indentations(const std::vector<ContactRow>& rows);
 
 /// Sets the compliance of rows to impulses over a substep of `h` [s]. Materials that carry no load yet are rigid if one
 /// of their contacts hits; those that yield give nothing back.

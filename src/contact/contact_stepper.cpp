@@ -92,6 +92,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
   for (int solution = 1; solution <= max_solutions; ++solution) {
     look_at_end(body, X0, work, starts, outcome);
     std::vector<ContactRow> assumed = work;
+    const std::vector<double> depths = indentations(assumed);
     double worst = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
       // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out. Compliant
@@ -99,7 +100,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
       const bool complies = work[i].compliance > 0.0;
       const double left = complies ? slack : std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
       work[i].gap += left;
-      if (complies) work[i].gap += indentation(assumed, assumed[i]);
+      if (complies) work[i].gap += depths[i];
       worst = std::max(worst, -work[i].gap);
     }
     solve_contacts(problem_, C, touching, work);

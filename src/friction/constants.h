@@ -43,6 +43,10 @@ constexpr int max_rounds = 20, max_stalled_rounds = 8, max_newton_iterations = 2
 /// iteration not to count. Larger: shorter steps, and fewer of them. Test:
 /// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1.
 constexpr double sufficient_decrease = 0.1;
+/// Cosine of the angle within which the normals of two contacts are on one side of a body, so that they indent one
+/// surface. At most 0, a body that is squeezed from two sides meets a rigid one. Test:
+/// Surfaces.ABodySqueezedFromTwoSidesIndentsBoth at -2.
+constexpr double same_side = 0.5;
 /// Gauss–Seidel iterations for the friction of what bounces. Fewer: it takes less energy than it could. Test:
 /// RigidWorld.ARodThatBouncesOnAnEdgeKeepsPoissonsLaw at 0.
 constexpr int bounce_iterations = 20;

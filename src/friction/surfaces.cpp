@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "constants.h"
+
 namespace spring_workbench::friction {
 
 using Eigen::Vector3d;
@@ -27,12 +29,15 @@ double Surfaces::indentation(std::size_t a, std::size_t b) const {
   return found == indented_.end() ? 0.0 : found->second;
 }
 
-int Surfaces::between(int a, int b, bool fast) {
+bool Surfaces::is_one(const Vector3d& n, const Vector3d& other_n) { return n.dot(other_n) > same_side; }
+
+int Surfaces::between(int a, int b, const Vector3d& n, bool fast) {
   const double compliance = compliance_of(a) + compliance_of(b);
   if (compliance == 0.0) return -1;
   const Pair bodies{std::min(a, b), std::max(a, b)};
-  auto found = std::find_if(surfaces_.begin(), surfaces_.end(), [&](const Surface& s) { return s.bodies == bodies; });
-  if (found == surfaces_.end()) found = surfaces_.insert(found, Surface{bodies, compliance / (h_ * h_)});
+  auto found = std::find_if(surfaces_.begin(), surfaces_.end(),
+                            [&](const Surface& s) { return s.bodies == bodies && is_one(s.n, n); });
+  if (found == surfaces_.end()) found = surfaces_.insert(found, Surface{bodies, n, compliance / (h_ * h_)});
   found->collides = found->collides || (fast && indented_before_.count(bodies) == 0);
   return static_cast<int>(found - surfaces_.begin());
 }

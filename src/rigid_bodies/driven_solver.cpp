@@ -92,8 +92,8 @@ std::vector<DrivenSolver::Contact> DrivenSolver::make_contacts(const btContactSo
     Contact& c = contacts.emplace_back(make_contact(i, info));
     if (!surfaces_.none()) {
       const auto [a, b] = bodies_of(*c.point, manifolds, manifold_count);
-      c.surface = surfaces_.between(a, b, closes_fast(c));
       c.n_W = (a < b ? 1.0 : -1.0) * from_bullet(c.point->m_normalWorldOnB);
+      c.surface = surfaces_.between(a, b, c.n_W, closes_fast(c));
     }
     // An indentation is no penetration, neither a deep one nor one for Bullet to undo.
     if (c.surface >= 0) m_tmpSolverContactConstraintPool[i].m_rhsPenetration = 0.0;

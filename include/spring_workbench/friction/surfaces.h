@@ -10,8 +10,8 @@
 namespace spring_workbench::friction {
 
 /// Surfaces between bodies of which a material is compliant: bodies without mass, which all contact forces between two
-/// bodies indent together. Two bodies that carry no load yet and approach fast collide first, as if they were rigid.
-/// Bodies are numbered from 0; -1 is the ground.
+/// bodies from one side indent together. Two bodies that carry no load yet and approach fast collide first, as if they
+/// were rigid. Bodies are numbered from 0; -1 is the ground.
 class Surfaces {
  public:
   /// `compliance` [m/N]: of each body's material, 0 if it is rigid; the last one is the ground's.
@@ -27,9 +27,11 @@ class Surfaces {
 
   /// Removes the surfaces of the contacts that were solved last.
   void clear() { surfaces_.clear(); }
-  /// Returns the index of the surface between two bodies, or -1 if both are rigid. `fast`: a contact of theirs closes
-  /// at more than the speed at which bodies bounce.
-  int between(int a, int b, bool fast);
+  /// Returns whether contacts with these normals are on one side, and indent one surface.
+  static bool is_one(const Eigen::Vector3d& n, const Eigen::Vector3d& other_n);
+  /// Returns the index of the surface between two bodies at a contact of the normal `n` from the lower to the higher
+  /// index, or -1 if both bodies are rigid. `fast`: the contact closes at more than the speed at which bodies bounce.
+  int between(int a, int b, const Eigen::Vector3d& n, bool fast);
   /// Returns whether it yields to contact: there is one, and its bodies do not collide.
   bool complies(int surface) const { return surface >= 0 && !at(surface).collides; }
   bool collides(int surface) const { return surface >= 0 && at(surface).collides; }
@@ -52,7 +54,8 @@ class Surfaces {
   using Pair = std::array<int, 2>;  ///< bodies, ascending
   struct Surface {
     Pair bodies;
-    double response;  ///< velocity per impulse over the step [1/kg]
+    Eigen::Vector3d n;  ///< normal of its first contact
+    double response;    ///< velocity per impulse over the step [1/kg]
     bool collides = false;
     Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
   };
