@@ -8,8 +8,8 @@ namespace spring_workbench::bodies {
 
 /// Two free bodies that touch nothing but each other, as one body: the first, as seen in the frame F that is fixed to
 /// the second and coincides with the world at the start. A wrench on it acts on the first body and, opposite and along
-/// the same line, on the second, so that the momentum and the angular momentum of both do not change, and an impulse
-/// changes their energy by as much as that of the one body. Poses, velocities and wrenches are in F.
+/// the same line, on the second, so that their total momentum and angular momentum do not change, and an impulse
+/// changes their energy exactly as it changes that of the combined body. Poses, velocities and wrenches are in F.
 class BodyPair final : public SteppedBody {
  public:
   BodyPair(FreeBody first, FreeBody second);
@@ -34,7 +34,7 @@ class BodyPair final : public SteppedBody {
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_F) override;
   bool reverses() const override { return true; }
-  /// Both continue from here like one rigid body.
+  /// Lets both continue from here like one rigid body.
   void block(double h) override;
 
  private:

@@ -17,7 +17,7 @@ struct BodyState {
   RigidTransform X_WO = RigidTransform::Identity();
   Twist V_WO_W;  ///< [m/s, rad/s]
   bool held = false;
-  bool highlighted = false;  ///< whether the tip or ray of an empty hand touches it: it can be grasped
+  bool highlighted = false;  ///< whether a press of the button would grasp it
   bool in_contact = false;
   bool asleep = true;
 
@@ -26,7 +26,7 @@ struct BodyState {
 
 /// Whether all numbers are the same, bit by bit.
 bool same_bits(const BodyState& a, const BodyState& b);
-/// The state of a body of a scene to begin with: asleep.
+/// Initial state of a body of a scene: at rest at its start pose, asleep.
 BodyState at_start(const scene::Body& body);
 
 /// Records which objects have changed since a given moment, so that a copy updates only these; a query costs as much as
@@ -51,10 +51,10 @@ class Changes {
   /// another `Changes`.
   std::vector<std::size_t> since(const Moment& then) const;
 
-  /// The objects that may differ from the same ones of `other`: those that have changed, here or there, since the last
-  /// followed(other). In ascending order.
+  /// The objects that may differ from their counterparts in `other`, in ascending order: those that have changed, here
+  /// or there, since the last followed(other).
   std::vector<std::size_t> differing(const Changes& other) const;
-  /// All objects are now as those of `other`.
+  /// To be called when all objects have been made equal to those of `other`.
   void followed(const Changes& other) {
     own_ = now();
     others_ = other.now();

@@ -36,8 +36,8 @@ class TrialStart {
   std::any state_;
 };
 
-/// Body that contact can carry over a step repeatedly until the contact load fits: the held body on its fork, or a free
-/// one.
+/// Body that contact can carry over the same step repeatedly, until the contact load fits: a held body on its fork, or
+/// a free one.
 class SteppedBody {
  public:
   virtual ~SteppedBody() = default;

@@ -24,7 +24,7 @@ class Tolerance {
   Tolerance(double depth) : depth_(depth) {}  // NOLINT(google-explicit-constructor): usually one number for all
   /// Sets another depth for one of them, by its index.
   void set(std::size_t other, double depth) { of_.emplace_back(other, depth); }
-  /// Lets it be at least so deep in all that have no depth of their own.
+  /// Raises the depth for all bodies that have none of their own to at least this one.
   void raise(double depth) { depth_ = std::max(depth_, depth); }
   double depth() const { return depth_; }  ///< in all that have no depth of their own
   double in(std::size_t other) const {
@@ -82,10 +82,10 @@ class CollisionWorld {
                              std::vector<ContactPoint>& contacts) const;
 
   /// Searches the whole path from `X0_WO` to `X1_WO` (straight in position, constant axis in rotation) for the first
-  /// contact, as in section 5 of the paper. It advances by what the gaps leave clear for certain or, if there are no
-  /// gaps, by steps in which no point of the body moves further than `resolution` [m]. In the first step that touches,
-  /// the free and the touching fraction are found by `levels` halvings, or, with 0, as the time of impact: by what is
-  /// certainly clear again (conservative advancement, Mirtich 1996).
+  /// contact, as in section 5 of the paper. It advances as far as the gaps guarantee that nothing is touched or, if
+  /// there are no gaps, by steps in which no point of the body moves further than `resolution` [m]. In the first step
+  /// that touches, `levels` bisections find the free and the touching fraction; with 0 levels, conservative advancement
+  /// (Mirtich 1996) finds the time of impact.
   virtual SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             const Tolerance& tolerance, double resolution, int levels) const;
 

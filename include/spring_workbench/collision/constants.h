@@ -5,8 +5,8 @@
 
 namespace spring_workbench::collision {
 
-/// [m]; a body with a smaller gap above an object rests on it, and wakes when that object is grasped or falls; a body
-/// with a larger gap above all others falls at the start. Larger: it hangs in the air. Test:
+/// [m]; a body whose gap above an object is smaller rests on that object, and wakes when the object is grasped or
+/// falls; a body whose gap above all others is larger falls at the start. Larger: it hangs in the air. Test:
 /// Falling.WhatNothingCarriesFallsAndWhatStandsStays at 0.1.
 constexpr double support_gap = 1e-4;
 /// A contact carries a body if the z component of its unit normal exceeds this. Larger: a body on a slope falls at the

@@ -10,8 +10,8 @@
 
 namespace spring_workbench::collision {
 
-/// Which bodies come near each other, by boxes alone: those that stand by the boxes around them, those that move by
-/// the boxes around their paths. In the header, since the collision library is opened and not linked.
+/// Finds which bodies come near each other, by boxes alone: around a body at rest, and around the path of a moving one.
+/// It is in the header because the collision library is opened, not linked.
 class Neighbourhood {
  public:
   Neighbourhood(const scene::Scene& scene, const CollisionWorld& standing, double margin)
@@ -21,7 +21,7 @@ class Neighbourhood {
     }
   }
 
-  /// Nothing moves.
+  /// Removes all moving bodies.
   void clear() { moving_.clear(); }
   void add_moving(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
     if (!extents_[body].box_O.isEmpty()) moving_.push_back({body, X0_WO, X1_WO});
@@ -35,9 +35,9 @@ class Neighbourhood {
     const double angle = std::min(math::turn_between(X0_WO, X1_WO).norm(), 2.0);
     return geometry::grown(ends, extent.radius * angle + margin_);
   }
-  /// Returns what stands in the box, the bench included.
+  /// Returns the bodies at rest in the box, the bench included.
   std::vector<std::size_t> standing(const Eigen::AlignedBox3d& box_W) const { return standing_.near(box_W); }
-  /// Returns what stands in the box or comes into it, in the order of the scene.
+  /// Returns the bodies that are in the box or enter it, in the order of the scene.
   std::vector<std::size_t> inside(const Eigen::AlignedBox3d& box_W) const {
     std::vector<std::size_t> found = standing(box_W);
     for (const Moving& m : moving_) {

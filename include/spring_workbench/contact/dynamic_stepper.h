@@ -20,7 +20,7 @@ class DynamicStepper {
 
   struct Outcome {
     int substeps = 0;
-    int unsolved = 0;        ///< of them, taken although a contact missed its law or a free body's path was not clear
+    int unsolved = 0;        ///< of them, taken although a contact violated its law or a free body's path was not clear
     double time_lost = 0.0;  ///< time [s] during which a held body was blocked, because contact admitted no motion or
                              ///< because its result was not finite or bounded
     bool refused = false;    ///< the result of a substep without contact was not finite or bounded
@@ -32,7 +32,7 @@ class DynamicStepper {
   /// Returns the free bodies of the world that nothing movable will approach in the next `h` [s]. `moving`: indices in
   /// the scene of the bodies that move.
   std::vector<std::size_t> alone(const std::vector<std::size_t>& moving, double h) const;
-  /// Returns whether a body that is not held moves.
+  /// Returns whether any body that is not held moves.
   bool others_awake() const;
   /// Returns the contacts in the last call of step(). Their impulses are sums over its substeps, their positions are
   /// those of the last. The first body of a contact is movable; if one of the two is held, it comes first.
@@ -52,7 +52,7 @@ class DynamicStepper {
     bool possible = false;
   };
   Candidate try_substep(bodies::SteppedBody& body, double h) const;
-  /// Returns whether the paths of all candidates are free and no body moves that is not held.
+  /// Returns whether the paths of all candidates are free and only held bodies move.
   bool all_free(const std::vector<Candidate>& candidates) const;
   /// Returns what the world needs of a candidate: its displacement without the load, and the compliance at its end. The
   /// body is at the beginning of the substep.

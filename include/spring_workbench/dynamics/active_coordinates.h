@@ -16,11 +16,11 @@ struct StrainState {
   void exchange(math::StateArchive& state) { state(q, q_dot); }
 };
 
-/// The strain coordinates of a shape model that an equation of motion has. Those of a DOF that is off are zero; those
-/// of a DOF that is being switched off return to zero by a prescribed motion, critically damped.
+/// The strain coordinates of a shape model that take part in an equation of motion. Those of a DOF that is off are
+/// zero; those of a DOF that is being switched off return to zero in a prescribed, critically damped motion.
 class ActiveCoordinates {
  public:
-  /// Begins with all coordinates active: `count`, 1 … max_strain_coordinates.
+  /// Starts with all `count` coordinates active, 1 … max_strain_coordinates.
   explicit ActiveCoordinates(int count);
 
   int count() const { return count_; }  ///< of the shape model

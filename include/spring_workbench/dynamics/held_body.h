@@ -54,8 +54,8 @@ struct EnergyBalance {
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
-/// `M(q) q̈ = −K q − D q̇ − (inertial, gravity and contact forces)`. A DOF that is off has no coordinates, nor has one
-/// that is being switched off, which follows a prescribed motion to zero.
+/// `M(q) q̈ = −K q − D q̇ − (inertial, gravity and contact forces)`. A DOF that is off has no coordinates; neither has
+/// one that is being switched off, which follows a prescribed motion to zero.
 class HeldBody {
  public:
   /// `gravity` [m/s²] along −z of world.

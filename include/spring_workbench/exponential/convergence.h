@@ -7,12 +7,12 @@
 
 namespace spring_workbench::exponential {
 
-/// Judges a fixed-point iteration: how much further iterations would still change, from the rate of convergence (Hairer
-/// and Wanner, Solving Ordinary Differential Equations II, IV.8, equation (8.10)), compared with the collocation error
-/// of the step, which no iteration reduces. Sizes are those of a norm, squared.
+/// Decides when a fixed-point iteration ends. It predicts from the rate of convergence how much further iterations
+/// would still change (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8, equation (8.10)), and
+/// compares this with the collocation error of the step, which no iteration reduces. All sizes are squared norms.
 class Convergence {
  public:
-  /// Assumes nothing about the next step from those before.
+  /// Forgets the rate and the error of the last step.
   void restart() {
     rate_ = 1.0;
     squared_error_ = 0.0;
@@ -23,9 +23,9 @@ class Convergence {
     rate_ = present_rate_ = std::min(1.0, rate_ * rate_growth);
     ended_ = converged_ = cancelled_ = false;
   }
-  /// Takes the change by an iteration: its squared size at all nodes and at the end of the step, and that of the
-  /// rounding errors of the result. `cancelled_rounding` returns that of terms that cancel, at most; it is asked for
-  /// only if the iteration stalls.
+  /// Records an iteration: the squared size of its change at all nodes and at the end of the step, and that of the
+  /// rounding errors of the result. `cancelled_rounding` returns an upper bound of the squared rounding errors of terms
+  /// that cancel; it is called only if the iteration stalls.
   template <typename CancelledRounding>
   void add(double squared_change, double squared_change_at_end, double squared_rounding,
            const CancelledRounding& cancelled_rounding) {
@@ -42,7 +42,7 @@ class Convergence {
   }
   /// Whether the iteration should end, judged by the collocation error of the last step.
   bool may_end() const { return ended_ || is_below(fraction_to_end); }
-  /// Takes the squared collocation error of this step, which decides whether the iteration has converged.
+  /// Sets the squared collocation error of this step, by which it decides whether the iteration has converged.
   void set_error(double squared_error) {
     squared_error_ = squared_error;
     converged_ = cancelled_ || is_below(max_fraction);
@@ -51,23 +51,24 @@ class Convergence {
   bool ended() const { return ended_; }
   bool converged() const { return converged_; }
   int iterations() const { return iterations_; }
-  /// All further changes over the last one.
+  /// Predicted sum of all further changes, relative to the last one.
   double left() const { return left_; }
-  /// All changes after the first iteration over the change by that one.
+  /// Predicted sum of all changes after the first iteration, relative to the change of that iteration.
   double left_after_first() const { return left_at(rate_); }
 
   void exchange(math::StateArchive& state) { state(rate_, squared_error_); }
 
   static constexpr int max_iterations = 12;
-  /// Fraction of the collocation error of the last step that further iterations may change for the iteration to end,
-  /// and of that of this step for it to have converged.
+  /// The iteration ends when further iterations would change less than the first fraction of the last step's
+  /// collocation error; it has converged if that is also less than the second fraction of this step's.
   static constexpr double fraction_to_end = 0.02, max_fraction = 0.1;
 
  private:
-  /// An iteration with a higher number that leaves more than slow_rate of the last change ends the step.
+  /// After this many iterations, one that leaves more than slow_rate of the last change ends the step.
   static constexpr int iterations_to_judge = 5;
   static constexpr double slow_rate = 0.7;
-  /// Assumed from one step to the next, until a step with two iterations tells: the rate is lowest at the linear part.
+  /// Assumed growth of the rate from one step to the next, until a step with two iterations measures it: the rate is
+  /// lowest at the strain at which the linear part was computed.
   static constexpr double rate_growth = 1.3;
   static constexpr double left_at_unknown = 1e3;  ///< left() at an unknown rate, or without convergence
 

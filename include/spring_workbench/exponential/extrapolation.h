@@ -9,8 +9,8 @@
 
 namespace spring_workbench::exponential {
 
-/// The collocation polynomials of `n` functions over the last step, extrapolated to the next: the start of its
-/// iteration.
+/// The collocation polynomials of `n` functions over the last step, extrapolated to the next step as the initial guess
+/// of its iteration.
 template <int n>
 class Extrapolation {
  public:

@@ -67,7 +67,7 @@ struct ModalOperators {
   PerNode defect;                      ///< of the residual's defect at each sample, at the nodes
   Operator end_defect;                 ///< of the defect at the sample of each lane, at the end
 
-  /// Computes all for steps of `h` [s], unless they are known: a restored history mostly goes on with the same.
+  /// Computes all for steps of `h` [s], unless they are known: a restored history usually continues with the same step.
   void compute(double h, const ModalRates& rates) {
     if (h == h_ && rates == rates_) return;
     h_ = h;

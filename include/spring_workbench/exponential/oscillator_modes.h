@@ -10,7 +10,7 @@ namespace spring_workbench::exponential {
 /// The modes of a real 2 × 2 matrix A, such as that of an oscillator, in closed form: A vectors = vectors B, B as in
 /// RealModes. The vectors are well conditioned whatever the rates, coincident ones included (critical damping).
 struct OscillatorModes {
-  /// If `square` would be larger, two real rates are single modes: then their eigenvectors are far from parallel.
+  /// Two real rates whose `square` is larger become two single modes, since their eigenvectors are far from parallel.
   static constexpr double max_square = 0.04;
 
   Eigen::Matrix2d vectors;  ///< orthonormal for a pair, so also if there is only one eigenvector

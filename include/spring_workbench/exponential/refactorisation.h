@@ -15,15 +15,15 @@ class Refactorisation {
  public:
   using Strain = Eigen::Matrix<double, n, 1>;
 
-  /// The linear part has been computed at the strain `q`.
+  /// To be called when the linear part has been computed at the strain `q`.
   void restart(const Strain& q) {
     begin_ = q;
     path_ = 0.0;
     steps_ = slow_iterations_ = 0;
   }
-  /// Counts a step from the strain `q`. Returns whether a new linear part pays: the steps since the last one have spent
-  /// the budget of slow iterations, or the strain is so far from that of the linear part that max_steps_back steps of
-  /// the mean length since then would not lead back. `mass` [kg] weighs the coordinates.
+  /// Counts a step that begins at the strain `q`. Returns whether to compute a new linear part: when the steps since
+  /// the last one have used up the budget of slow iterations, or when the strain has moved away from that of the linear
+  /// part by more than max_steps_back times the mean length of these steps. `mass` [kg] weighs the coordinates.
   bool is_due(const Strain& q, const Strain& q_reference, const Strain& mass) {
     const auto length = [&mass](const Strain& path) { return std::sqrt(mass.dot(path.cwiseAbs2())); };
     path_ += length(q - std::exchange(begin_, q));
@@ -35,11 +35,11 @@ class Refactorisation {
 
   void exchange(math::StateArchive& state) { state(begin_, path_, steps_, slow_iterations_); }
 
-  /// Steps from the present strain back to that of the linear part, for whose sake a new one pays.
+  /// Distance from the strain of the linear part at which a new one is computed, in mean steps.
   static constexpr double max_steps_back = 50.0;
-  /// A step with no more iterations is at its best.
+  /// Iterations of a step beyond this number count against the budget.
   static constexpr int fast_iterations = 3;
-  /// Iterations that cost as much as a linear part does.
+  /// Number of iterations that cost as much as computing a linear part.
   static constexpr int budget = 150;
 
  private:

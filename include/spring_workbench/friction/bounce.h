@@ -21,10 +21,10 @@ struct BouncingContact {
   Vector3d by(const std::vector<Vector6d>& change) const { return J_a * change[a] + J_b * change[b]; }
 };
 
-/// Lets contacts bounce whose impulses have ended their approach and changed the velocities by `change`: each gives
-/// back its share of its normal impulse (Poisson's law), with the friction that takes the most energy. Unlike Newton's
-/// law, that returns at most what was lost; of several different shares it may be more: then all give back less.
-/// `responses`: of the bodies' velocities to impulses; of size 0 for those that do not move. Out: both sums.
+/// Makes contacts bounce after their impulses have ended the approach and changed the velocities by `change`: each
+/// gives back its share of its normal impulse (Poisson's law), with the friction that removes the most energy. Unlike
+/// Newton's law, this returns no more energy than was lost. With different shares it could return more; all then give
+/// back less. `responses`: of the bodies' velocities to impulses; of size 0 for those that do not move. Out: both sums.
 void give_back(const std::vector<Eigen::MatrixXd>& responses, const std::vector<BouncingContact*>& contacts,
                std::vector<Vector6d>& change);
 

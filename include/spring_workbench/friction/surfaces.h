@@ -47,7 +47,7 @@ class Surfaces {
   /// `n`.
   void add_load(int surface, const Eigen::Vector3d& n, double impulse);
   double motion(int surface, const Eigen::Vector3d& n) const;
-  /// Notes that a contact presses, so that its bodies are loaded in the next step, and how deep.
+  /// Records that a contact presses, and how deep, so that its bodies count as loaded in the next step.
   void note_pressed(int surface, const Eigen::Vector3d& n);
 
  private:

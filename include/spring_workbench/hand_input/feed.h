@@ -65,7 +65,7 @@ class Feed {
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
   }
-  /// Adds what a machine's force sensor measured; see Simulation. Nothing waits for it.
+  /// Adds what a machine's force sensor measured; see Simulation. Time never waits for such a sample.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Reports that the buttons of a hand are known up to `t`, whether or not one of them changed.
   void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
@@ -88,8 +88,8 @@ class Feed {
   /// Sets the function that is called with every input of the simulation; empty: nothing is recorded.
   void record(std::function<void(const Accepted&)> record) { record_ = std::move(record); }
 
-  /// Forgets the hands, after the simulation was reset or changed: the next sample is a first one. Gates and counts
-  /// stay.
+  /// Forgets the hands' samples after the simulation was reset or changed: the next sample counts as the first. Gates
+  /// and counts are kept.
   void restart();
   /// Forgets the samples of one hand in its gate, after a time jump; keeps the counts.
   void restart_gate(std::size_t hand);

@@ -65,7 +65,7 @@ class MotionSegment final : public FrameMotion {
   MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vector3d& w_a_B, const PoseSample& b,
                 const Vector3d& v_b, const Vector3d& w_b_B);
 
-  /// The motion of a frame C that is fixed to this frame B at `X_BC`.
+  /// The motion of a frame C that is fixed to the frame B of this motion at the pose `X_BC`.
   MotionSegment of_frame(const RigidTransform& X_BC) const;
 
   double begin() const { return begin_; }  ///< [s]

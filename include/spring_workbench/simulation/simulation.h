@@ -91,11 +91,11 @@ struct ChangeReport {
   std::string message;                 ///< one line for the user
 };
 
-/// A scene, the hands and their tools, with only the subsystems that the scene needs. It owns simulated time. It uses
-/// no clock, thread, log or ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. Hands
-/// are numbered from 0 (the first stylus) to hands() − 1; any other number throws InputError. All times are those of
-/// the hand's clock. World time runs `settings().hand_time_scale` times as fast; velocities, rates and the limit
-/// `settings().dynamics.step` refer to world time.
+/// Simulates a scene with hands and their tools, and runs only the subsystems that the scene needs. It owns simulated
+/// time. It uses no clock, thread, log or ROS: the same calls give bit-identical results. NaN is neither accepted nor
+/// returned. Hands are numbered from 0 (the first stylus) to hands() − 1; any other number throws InputError. All times
+/// are those of the hand's clock. World time runs `settings().hand_time_scale` times as fast; velocities, rates and the
+/// limit `settings().dynamics.step` refer to world time.
 class Simulation {
  public:
   /// Throws InputError if settings and scene do not match (e.g. if `grasp.object` is not in the scene).

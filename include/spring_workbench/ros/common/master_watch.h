@@ -11,11 +11,11 @@
 
 namespace spring_workbench::ros_common {
 
-/// Keeps this process known to the ROS master. roscpp registers topics and services once, with the master that is there
-/// at the time, and a restarted master knows nothing of them. This looks once a second and registers again: parameters,
-/// publishers and services at once, subscribers `subscribers_later` looks after them, when the publishers of all nodes
-/// with a MasterWatch are registered: roscpp drops its connection to a publisher that the master does not list.
-/// Connections that exist stay, also those to nodes that do not register again.
+/// Keeps this process registered with the ROS master. roscpp registers topics and services only once, with the master
+/// that is running at the time; a restarted master does not know them. This class checks once a second and registers
+/// them again: parameters, publishers and services at once, subscribers `subscribers_later` checks later, when the
+/// publishers of all nodes with a MasterWatch are registered, because roscpp drops its connection to a publisher that
+/// the master does not list. Existing connections are kept, even to nodes that do not register again.
 class MasterWatch {
  public:
   /// What the master reported last.
@@ -24,12 +24,13 @@ class MasterWatch {
     std::map<std::string, std::vector<std::string>> publishers;  ///< names of nodes by topic
   };
 
-  /// `node`: has the queue of a thread that may wait for the master. In it, `on_new_master` is called after a restarted
-  /// master was given the parameters in this node's namespace, as they were when this was made.
+  /// `node`: its callback queue belongs to a thread that may wait for the master. `on_new_master` is called in that
+  /// thread once a restarted master has received the parameters in this node's namespace, as they were when this object
+  /// was made.
   explicit MasterWatch(
       const ros::NodeHandle& node, std::function<void()> on_new_master = [] {});
 
-  /// Never null. Before the first answer it is empty, and received at the start.
+  /// Never null. Until the master has answered, it is empty and counts as received at the start.
   std::shared_ptr<const Answer> answer() const;
 
  private:
@@ -43,7 +44,7 @@ class MasterWatch {
   XmlRpc::XmlRpcValue parameters_;
   std::vector<std::string> services_;         ///< of this process
   std::map<std::string, std::string> types_;  ///< of its publishers' topics
-  int subscribers_due_ = 0;                   ///< looks until they are registered again; 0: they are
+  int subscribers_due_ = 0;                   ///< checks left until they are registered again; 0: none
   mutable std::mutex mutex_;
   std::shared_ptr<const Answer> answer_;
   ros::SteadyTimer timer_;

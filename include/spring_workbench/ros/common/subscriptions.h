@@ -13,12 +13,12 @@
 
 namespace spring_workbench::ros_common {
 
-/// Keeps work that may have to wait for the ROS master, so that no caller waits for it before the program exits. To be
+/// Takes over work that may be waiting for the ROS master, so that nothing waits for it until the program exits. To be
 /// called from one thread.
 void leave_until_exit(std::future<void> work);
 
-/// Runs work that may have to wait for the ROS master in the background, each after the one before, so that no
-/// caller waits for it before the program exits. To be called from one thread.
+/// Runs work that may have to wait for the ROS master in the background, in the order of the calls, so that nothing
+/// waits for it until the program exits. To be called from one thread.
 void run_in_order(std::function<void()> work);
 
 /// The ROS subscribers of one component of a window. Their callbacks run in the thread that destroys this object; none
