@@ -4,6 +4,15 @@ namespace spring_workbench::python {
 
 namespace py = pybind11;
 
+namespace {
+
+/// E.g. "an array of shape (3, 3)".
+std::string shape_of(const Array& array) {
+  return "an array of shape " + py::str(py::object(array.attr("shape"))).cast<std::string>();
+}
+
+}  // namespace
+
 Array to_array(const RigidTransform& X) {
   Array matrix({4, 4});
   for (int row = 0; row < 4; ++row) {
@@ -13,13 +22,13 @@ Array to_array(const RigidTransform& X) {
 }
 
 RigidTransform to_pose(const Array& matrix, const std::string& what) {
-  const auto refuse = [&](const char* value) {
+  const auto refuse = [&](const std::string& value) {
     throw validation::InputError(what +
                                  ": must be a 4 x 4 array of finite numbers: a rotation, a position [m] and a "
                                  "last row 0 0 0 1, got " +
                                  value);
   };
-  if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4) refuse("an array of another shape");
+  if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4) refuse(shape_of(matrix));
   Eigen::Matrix4d m;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) m(row, column) = matrix.at(row, column);
@@ -53,8 +62,7 @@ Array to_array(const Wrench& F) {
 
 Wrench to_wrench(const Array& vector, const std::string& what) {
   if (vector.ndim() != 1 || vector.shape(0) != 6) {
-    throw validation::InputError(what +
-                                 ": must be six numbers: force [N] and moment [N m], got an array of another shape");
+    throw validation::InputError(what + ": must be six numbers: force [N] and moment [N m], got " + shape_of(vector));
   }
   return {Vector3d(vector.at(0), vector.at(1), vector.at(2)), Vector3d(vector.at(3), vector.at(4), vector.at(5))};
 }

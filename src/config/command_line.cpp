@@ -1,5 +1,7 @@
 #include "spring_workbench/config/command_line.h"
 
+#include "spring_workbench/validation/one_line.h"
+
 namespace spring_workbench::config {
 
 CommandOption text_option(const std::string& name, std::string& value) {
@@ -27,11 +29,17 @@ bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& 
   for (int code; (code = getopt_long(argc, argv, ":", known.data(), &found)) != -1;) {
     const std::string word = optind > 0 && optind <= argc ? argv[optind - 1] : "";
     if (code == ':') throw validation::InputError(std::string(command_line) + ": " + word + ": needs a value");
-    if (code != 0) validation::refuse(command_line, "option", word, "one that --help lists");
+    if (code != 0) {
+      throw validation::InputError(std::string(command_line) + ": " + validation::one_line(word) +
+                                   ": unknown option; --help lists all options");
+    }
     if (found == 0) return false;
     options[static_cast<std::size_t>(found - 1)].take(optarg != nullptr ? optarg : "");
   }
-  if (optind < argc) validation::refuse(command_line, "argument", argv[optind], "an option that --help lists");
+  if (optind < argc) {
+    throw validation::InputError(std::string(command_line) + ": " + validation::one_line(argv[optind]) +
+                                 ": unexpected argument; --help lists all options");
+  }
   return true;
 }
 

@@ -8,6 +8,7 @@
 
 #include "constants.h"
 #include "spring_workbench/validation/one_line.h"
+#include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::config {
 namespace {
@@ -108,8 +109,8 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      throw validation::InputError(validation::one_line(place(entry.first, where) + ": " + prefix + key +
-                                                        ": unknown key; known keys are " + validation::join(allowed)));
+      throw validation::InputError(validation::one_line(place(entry.first, where) + ": " + prefix + key + ": " +
+                                                        validation::unknown_key(key, allowed)));
     }
     if (!seen.insert(key).second)
       throw validation::InputError(

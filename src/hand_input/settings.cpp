@@ -93,8 +93,7 @@ void set(const std::string& key, const YAML::Node& value, const std::string& whe
     if (entry.description.key == key) return entry.read(value, where, name, settings);
     known.push_back(kGroup + "." + entry.description.key);
   }
-  throw validation::InputError(
-      validation::one_line(where + ": " + name + ": " + validation::unknown_key(name, validation::join(known))));
+  throw validation::InputError(validation::one_line(where + ": " + name + ": " + validation::unknown_key(name, known)));
 }
 
 /// Sets `value` under `key`; a map is a group of further keys.

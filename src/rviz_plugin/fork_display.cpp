@@ -66,7 +66,7 @@ void ForkDisplay::update(float wall_dt, float) {
     fork.silence += static_cast<double>(wall_dt);
     if (fork.silence > longest_silence && fork.drawn.visible()) {
       fork.drawn.hide();
-      setStatus(StatusProperty::Warn, "Topic", "Silent: is manipulation running?");
+      setStatus(StatusProperty::Warn, "Topic", "No messages: is manipulation running?");
     }
     if (fork.newest) draw(fork);
   }

@@ -53,7 +53,7 @@ void check(const SceneDescription& scene) {
   for (const MeshDescription& mesh : scene.meshes) check_mesh(mesh);
   std::set<std::string> names;
   for (const BodyDescription& body : scene.bodies) {
-    if (!names.insert(body.name).second) refuse(body.name, "name: must be that of one body alone");
+    if (!names.insert(body.name).second) refuse(body.name, "name: must be unique");
     check(body.pose, body.name);
     for (const ShapeDescription& shape : body.visual) check_shape(shape, scene.meshes.size(), body.name);
   }

@@ -75,7 +75,7 @@ void ObjectsDisplay::update(float wall_dt, float) {
   if (newest_) place();
   if (silence_ > longest_silence && !frame_.empty()) {
     frame_.clear();
-    setStatus(StatusProperty::Warn, "Topic", "Silent: is manipulation running?");
+    setStatus(StatusProperty::Warn, "Topic", "No messages: is manipulation running?");
   }
   if (frame_.empty() || !place_node(frame_, fixed_frame_, context_, *this)) scene_node_->setVisible(false);
 }

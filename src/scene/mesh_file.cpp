@@ -108,7 +108,7 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
   check_folder(path, roots, name, where,
                key);  // checked first, so that the message does not reveal which files exist elsewhere
   if (!fs::is_regular_file(path, error))
-    validation::refuse(where, key, name, "an existing file (looked for " + path + ")");
+    validation::refuse(where, key, name, "an existing file" + (path == name ? "" : " (looked for " + path + ")"));
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > max_bytes) {
     validation::refuse(where, key, name, "a file of at most " + std::to_string(max_bytes >> 20) + " MiB");

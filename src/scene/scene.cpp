@@ -136,7 +136,7 @@ Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>&
 Body read_object(const std::string& name, const std::string& urdf, const std::optional<RigidTransform>& X_WL,
                  const Scene& scene, const std::vector<std::string>& roots, const std::string& where) {
   if (name.empty() || name == "world" || name == "workbench" || find_body(scene, name)) {
-    validation::refuse(where, "name", name, "a name that no body of the scene has, and not world or workbench");
+    validation::refuse(where, "name", name, "a new name, other than world and workbench");
   }
   const std::string folder = fs::path(scene.path).parent_path().string();
   const UrdfFile file = read_urdf_file(resolve_file(urdf, folder, roots, where, "urdf"));

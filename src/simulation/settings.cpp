@@ -243,8 +243,7 @@ const Field& find_field(const std::vector<Field>& table, const std::string& key,
   if (found != table.end()) return *found;
   std::vector<std::string> known;
   for (const Field& field : table) known.push_back(field.description.key);
-  throw validation::InputError(
-      validation::one_line(where + ": " + key + ": " + validation::unknown_key(key, validation::join(known))));
+  throw validation::InputError(validation::one_line(where + ": " + key + ": " + validation::unknown_key(key, known)));
 }
 
 /// Refuses combinations of values that are each valid but incompatible.

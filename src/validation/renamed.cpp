@@ -1,6 +1,30 @@
 #include "spring_workbench/validation/renamed.h"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "constants.h"
+#include "spring_workbench/validation/number_rule.h"
+
 namespace spring_workbench::validation {
+namespace {
+
+/// Number of letters to insert, remove or replace to make `b` of `a` (Levenshtein's distance).
+std::size_t edits(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);  // from the first letters of `a` to the first j of `b`
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = std::exchange(row[j + 1], std::min({replaced, row[j] + 1, row[j + 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
 
 const std::map<std::string, std::string>& renamed() {
   static const std::map<std::string, std::string> names = {
@@ -34,10 +58,14 @@ const std::map<std::string, std::string>& renamed_values() {
   return names;
 }
 
-std::string unknown_key(const std::string& key, const std::string& known) {
+std::string unknown_key(const std::string& key, const std::vector<std::string>& known) {
   const auto found = renamed().find(key);
-  return found != renamed().end() ? "unknown key; it is now called " + found->second
-                                  : "unknown key; known keys are " + known;
+  if (found != renamed().end()) return "unknown key; it is now called " + found->second;
+  const auto nearer = [&key](const std::string& a, const std::string& b) { return edits(key, a) < edits(key, b); };
+  const auto nearest = std::min_element(known.begin(), known.end(), nearer);
+  const bool misspelt = nearest != known.end() && edits(key, *nearest) <= max_edits;
+  if (misspelt && known.size() > max_listed_keys) return "unknown key; did you mean " + *nearest + "?";
+  return "unknown key; known keys are " + join(known);
 }
 
 }  // namespace spring_workbench::validation

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace spring_workbench::validation {
 
@@ -12,7 +13,8 @@ const std::map<std::string, std::string>& renamed();
 /// The same for the values of a setting; refuse() reports the new one.
 const std::map<std::string, std::string>& renamed_values();
 
-/// Returns "unknown key; it is now called X" for a renamed key, otherwise "unknown key; known keys are `known`".
-std::string unknown_key(const std::string& key, const std::string& known);
+/// Returns what is wrong with a key that is not one of `known`: the new name of a renamed key, the nearest key of a
+/// long list for a misspelt one, or otherwise the list.
+std::string unknown_key(const std::string& key, const std::vector<std::string>& known);
 
 }  // namespace spring_workbench::validation

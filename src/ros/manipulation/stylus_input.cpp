@@ -106,7 +106,8 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
         reject_stamp(one, motion::to_string(result), age);
       });
   if (wall_poses_.clock().steps() == steps) {
-    if (host_set != 0.0) ROS_WARN("this host's clock was set, or it slept: %.3g s are now an offset", host_set);
+    if (host_set != 0.0)
+      ROS_WARN("this host's clock was set, or the host was suspended: %.3g s are treated as an offset", host_set);
     return;
   }
   ++statistics_.clock_steps;

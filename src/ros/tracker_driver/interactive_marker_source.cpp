@@ -34,7 +34,7 @@ InteractiveMarkerControl make_ball() {
   ball.pose.orientation.w = 1.0;
   InteractiveMarkerControl control;
   control.name = "ball";
-  control.description = "drag; Shift: to and fro, Ctrl: turn; right button: menu";
+  control.description = "drag to move; Shift: away and back; Ctrl: rotate; right button: menu";
   control.interaction_mode = InteractiveMarkerControl::MOVE_ROTATE_3D;
   control.always_visible = true;
   control.orientation.w = 1.0;

@@ -159,13 +159,20 @@ TEST(Settings, BadInputNamesPlaceKeyValueAndRuleAndChangesNothing) {
 }
 
 TEST(Settings, UnknownKeysAreRefusedNamingTheKnown) {
-  for (const std::string yaml : {"stepp: 0.01", "fork: {lenght: 0.3}", "fork: 3", "step: {size: 0.01}", "rate: 50"}) {
+  for (const std::string yaml : {"fork: 3", "step: {size: 0.01}", "rate: 50"}) {
     SimulationSettings settings;
     const std::string message = refusal(yaml, settings);
     EXPECT_EQ(message.rfind("some.yaml:1: ", 0), 0u) << message;
     EXPECT_TRUE(contains(message, "unknown key; known keys are ")) << message;
     for (const SettingDescription& d : setting_descriptions()) EXPECT_TRUE(contains(message, d.key));
   }
+}
+
+TEST(Settings, AMisspeltKeyIsRefusedNamingTheNearest) {
+  SimulationSettings settings;
+  EXPECT_EQ(refusal("stepp: 0.01", settings), "some.yaml:1: stepp: unknown key; did you mean step?");
+  EXPECT_EQ(refusal("fork: {lenght: 0.3}", settings),
+            "some.yaml:1: fork.lenght: unknown key; did you mean fork.length?");
 }
 
 TEST(Settings, AKeyGivenTwiceIsRefused) {
