@@ -27,8 +27,8 @@ class OperatorHands {
   /// Poses of the hands at their newest samples.
   std::vector<RigidTransform> X_WH() const;
   bool pressed(std::size_t hand) const { return hands_[hand].pressed; }
-  /// The hand, not counting `others`, whose start pose is horizontally nearest to the point `p_W` [m]. There must be
-  /// one.
+  /// The hand, not counting `others`, whose start pose is horizontally nearest to the point `p_W` [m]. At least one
+  /// hand must be left.
   std::size_t nearest(const Vector3d& p_W, const Numbers& others) const;
 
   void press(std::size_t hand, bool pressed) { hands_[hand].pressed = pressed; }

@@ -8,8 +8,8 @@
 
 namespace spring_workbench::ros_common {
 
-/// Messages of one stream that are stamped before its newest one. They wait until the clock, or the other stream, jumps
-/// back, too.
+/// Holds the messages of one stream whose stamps are earlier than its newest one, until the clock or the other stream
+/// jumps back as well.
 template <typename Message>
 class EarlyMessages {
  public:

@@ -11,8 +11,8 @@
 
 namespace spring_workbench::manipulation {
 
-/// Publishes the displayed frames on /tf while another node subscribes: each time the handle and tip of each tool and
-/// the objects that have moved. All other objects take turns, such that each is sent ten times a second and a late
+/// Publishes the displayed frames on /tf while another node subscribes: in each message the handle and tip of each tool
+/// and the objects that have moved. The other objects take turns, so that each is sent ten times a second and a late
 /// subscriber gets them all.
 class FramePublisher {
  public:
@@ -28,7 +28,7 @@ class FramePublisher {
   void add_tools(const live::View& view);
   void add_objects(const live::View& view);
   void name_frames(const live::View& view);
-  /// Number of unmoved objects whose turn it is.
+  /// Number of objects at rest whose turn it is.
   std::size_t turns(std::size_t objects);
 
   std::string world_frame_, frame_prefix_;
