@@ -2,10 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "constants.h"
+#include "spring_workbench/math/student_t.h"
 
 namespace spring_workbench::instruments {
 namespace {
@@ -84,7 +84,7 @@ std::optional<MaterialEstimate::Fit> MaterialEstimate::fit_near(double lag) cons
   fit.lag = lag + x[2] / x[1];
   fit.compliance_deviation = deviation[1];
   fit.lag_deviation = deviation[2] / std::abs(x[1]);
-  fit.quantile = boost::math::quantile(boost::math::students_t(spare), 0.5 + 0.5 * confidence);
+  fit.quantile = math::student_t_quantile(spare, 0.5 + 0.5 * confidence);
   return fit;
 }
 

@@ -1,7 +1,6 @@
 #include "spring_workbench/rod/tip_fit.h"
 
-#include <Eigen/SVD>
-
+#include "spring_workbench/math/singular_values.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/square_system.h"
 
@@ -68,24 +67,24 @@ class Slope {
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) J_(i, j) = math::lane(columns.by[j][i], lane) / units_[j];
     }
-    svd_.compute(J_, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    inverse_ = svd_.singularValues().unaryExpr(
-        [](double s) { return s >= min_motion ? 1.0 / s : s / (min_motion * min_motion); });
+    svd_ = math::singular_values(J_);
+    inverse_ =
+        svd_.values.unaryExpr([](double s) { return s >= min_motion ? 1.0 / s : s / (min_motion * min_motion); });
   }
   Vector6d times(const Vector6d& x) const { return J_ * units_.cwiseProduct(x); }
   /// Strain rates for the given velocities, as far as the rod can follow them.
   Vector6d solve(const Vector6d& b) const {
-    return (svd_.matrixV() * inverse_.cwiseProduct(svd_.matrixU().transpose() * b)).cwiseQuotient(units_);
+    return (svd_.V * inverse_.cwiseProduct(svd_.U.transpose() * b)).cwiseQuotient(units_);
   }
   /// Transpose of solve(): forces from generalised forces.
   Vector6d solve_transposed(const Vector6d& b) const {
-    return svd_.matrixU() * inverse_.cwiseProduct(svd_.matrixV().transpose() * b.cwiseQuotient(units_));
+    return svd_.U * inverse_.cwiseProduct(svd_.V.transpose() * b.cwiseQuotient(units_));
   }
 
  private:
   Vector6d units_, inverse_;
   Matrix6d J_;
-  Eigen::JacobiSVD<Matrix6d> svd_;
+  math::SingularValues svd_;
 };
 
 template <typename S>

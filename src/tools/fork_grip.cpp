@@ -1,9 +1,9 @@
 // Regrasping: the hand takes the fork at another pose while the fork holds an object.
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "constants.h"
 #include "fork_body.h"
+#include "spring_workbench/math/singular_values.h"
 #include "spring_workbench/stepping/find_strain.h"
 
 namespace spring_workbench::tools {
@@ -18,13 +18,11 @@ Wrench ForkBody::spring_pull() const {
   if (held_.size() == 0) return springs;
   // The smallest of all wrenches equivalent to the dampers' generalised force; with six coordinates it is unique.
   const rod::StrainVector dampers = held_.damping() * state_.strain.q_dot;
-  Matrix6d onto_coordinates = Matrix6d::Zero();  // fixed size, because Eigen compiles that much faster
+  Matrix6d onto_coordinates = Matrix6d::Zero();
   onto_coordinates.topRows(held_.size()) = jacobian_W().transpose();
   Vector6d generalised = Vector6d::Zero();
   generalised.head(held_.size()) = -dampers;
-  const Eigen::JacobiSVD<Matrix6d> svd(onto_coordinates, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vector6d damping = svd.solve(generalised);
-  return to_wrench(to_vector(springs) - damping);
+  return to_wrench(to_vector(springs) - math::least_squares(onto_coordinates, generalised));
 }
 
 rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const {

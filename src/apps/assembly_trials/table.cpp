@@ -1,19 +1,17 @@
 #include "table.h"
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
+
+#include "spring_workbench/math/student_t.h"
 
 namespace spring_workbench::assembly_trials {
 namespace {
 
-/// The 97.5 % quantile of the distribution.
-template <typename Distribution>
-double quantile(const Distribution& distribution) {
-  return boost::math::quantile(distribution, 0.975);
-}
+/// The 97.5 % quantile of Student's t distribution, of n − 1 degrees of freedom for n trials.
+double quantile(double degrees_of_freedom) { return math::student_t_quantile(degrees_of_freedom, 0.975); }
 
 std::string text(const char* format, double a, double b, double c = 0.0) {
   char buffer[80];
@@ -29,12 +27,12 @@ std::string mean(const std::vector<assembly::TaskScore>& scores, double scale,
   for (const assembly::TaskScore& s : scores) sum += scale * value(s);
   for (const assembly::TaskScore& s : scores) squares += std::pow(scale * value(s) - sum / n, 2);
   if (n < 2.0) return text("%.3g", sum / n, 0.0);
-  return text("%.3g ± %.2g", sum / n, quantile(boost::math::students_t(n - 1.0)) * std::sqrt(squares / (n - 1.0) / n));
+  return text("%.3g ± %.2g", sum / n, quantile(n - 1.0) * std::sqrt(squares / (n - 1.0) / n));
 }
 
 std::string completed(const std::vector<assembly::TaskScore>& scores) {
   const double n = static_cast<double>(scores.size());
-  const double z = quantile(boost::math::normal()), zz = z * z;
+  const double z = quantile(std::numeric_limits<double>::infinity()), zz = z * z;  // of the normal distribution
   double done = 0.0;
   for (const assembly::TaskScore& s : scores) done += s.complete() ? 1.0 : 0.0;
   const double p = done / n;
