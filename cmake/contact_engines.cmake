@@ -26,6 +26,14 @@ if(SPRING_WORKBENCH_WITH_BULLET AND SPRING_WORKBENCH_FCL_FOUND)
   endif()
 endif()
 
+# add_engines(<target>): builds the engine of mode `dynamic` with a target that opens it. It is part of `all`, but not of
+# `demo`, which does not run it.
+function(add_engines target)
+  if(SPRING_WORKBENCH_BULLET_FOUND)
+    add_dependencies(${target} spring_workbench_rigid_bodies_engine)
+  endif()
+endfunction()
+
 if(NOT SPRING_WORKBENCH_FCL_FOUND)
   message(STATUS "FCL (libfcl-dev) left out: no contact mode stop")
 endif()

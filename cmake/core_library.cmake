@@ -23,7 +23,6 @@ target_link_libraries(spring_workbench_core
 install(TARGETS spring_workbench_core EXPORT spring_workbenchTargets LIBRARY DESTINATION ${SPRING_WORKBENCH_LIB})
 foreach(engine spring_workbench_collision_engine spring_workbench_rigid_bodies_engine)
   if(TARGET ${engine})
-    add_dependencies(spring_workbench_core ${engine})
     install(TARGETS ${engine} LIBRARY DESTINATION ${SPRING_WORKBENCH_LIB})
   endif()
 endforeach()
