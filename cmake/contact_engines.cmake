@@ -26,7 +26,7 @@ if(SPRING_WORKBENCH_WITH_BULLET AND SPRING_WORKBENCH_FCL_FOUND)
   endif()
 endif()
 
-# add_engines(<target>): builds the engine of mode `dynamic` with a target that opens it. It is part of `all`, but not of
+# add_engines(<target>): builds the engine of mode `dynamic` with a target that opens it. It is part of `all`, not of
 # `demo`, which does not run it.
 function(add_engines target)
   if(SPRING_WORKBENCH_BULLET_FOUND)

@@ -32,8 +32,7 @@ class ContactStepper {
 
  private:
   const scene::Material& material(std::size_t body) const;  ///< also of the bench
-  /// Keeps the contacts that still exist, or that are within `depth` [m] along their normals, and updates their gaps to
-  /// the present pose.
+  /// Keeps the contacts that exist or are within `depth` [m] along their normals, with their gaps at the present pose.
   void refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows, double depth,
                ContactOutcome& outcome) const;
   /// Adds the contacts found with the body at `X_WO`, with the gaps at that pose.
