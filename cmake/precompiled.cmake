@@ -8,6 +8,11 @@ set(SPRING_WORKBENCH_HEADERS_OF_tests ${SPRING_WORKBENCH_HEADERS_OF_core} <gtest
 set(SPRING_WORKBENCH_HEADERS_OF_ros ${SPRING_WORKBENCH_HEADERS_OF_core} <ros/ros.h> <tf2_msgs/TFMessage.h>
   <visualization_msgs/MarkerArray.h>)
 
+# GCC frees memory only beyond a gigabyte, which saves a twentieth of the time.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options(--param=ggc-min-heapsize=1048576)
+endif()
+
 # ccache leaves out sources with precompiled headers unless it is told that macros from elsewhere do not matter.
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
   list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros)
