@@ -18,8 +18,7 @@ int main(int argc, char** argv) {
     } else if (words.size() >= 2 && table == "cadence") {
       write_cadence_table({words.begin() + 1, words.end()}, std::cout);
     } else if (words.size() >= 3 && table == "prediction") {
-      constexpr double seconds = 20.0;
-      write_prediction_table(words[1], {words.begin() + 2, words.end()}, seconds, std::cout);
+      write_prediction_table(words[1], {words.begin() + 2, words.end()}, std::cout);
     } else {
       throw validation::InputError(
           "tracker_report: arguments: must be filter or cadence, and one motion or more, or prediction, a scene and "

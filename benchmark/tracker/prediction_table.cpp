@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <iomanip>
+#include <map>
 
 #include "motions.h"
 #include "spring_workbench/live/look_ahead.h"
@@ -29,11 +29,10 @@ scene::Scene held_at(const Vector3d& handle, scene::Scene scene, ContactMode con
 }
 
 /// The motion from its first sample in the air, shifted such that the box touches the bench at the median height.
-std::vector<motion::PoseSample> above_the_bench(const std::string& path, double seconds) {
+std::vector<motion::PoseSample> above_the_bench(const std::string& path) {
   std::vector<motion::PoseSample> samples;
   std::vector<double> heights;
   for (const motion::StylusSample& sample : read_samples(path)) {
-    if (sample.t > seconds) break;
     samples.push_back(sample);
     heights.push_back(sample.X.translation().z());
   }
@@ -79,15 +78,18 @@ class Run {
   }
 
   std::array<Errors, kAhead.size()> errors() {
+    double now = samples_.front().t;
     for (const motion::PoseSample& sample : samples_) {
-      feed_.push_stylus({sample.t, sample.X.translation(), Quaterniond(sample.X.linear())}, RigidTransform::Identity(),
-                        {sample.t, sample.t});
-      while (const std::optional<double> stop = feed_.next_stop({sample.t, sample.t})) commit(*stop);
+      now = std::max(now, sample.t);
+      const hand_input::GateResult result = feed_.push_stylus(
+          {sample.t, sample.X.translation(), Quaterniond(sample.X.linear())}, RigidTransform::Identity(), {now, now});
+      while (const std::optional<double> stop = feed_.next_stop({now, now})) commit(*stop);
+      if (!hand_input::usable(result)) continue;
       for (std::size_t i = 0; i < kAhead.size(); ++i) {
         const double t = simulation_.newest_sample() + kAhead[i];
         ahead_[i].show(simulation_, feed_, t);
         const bodies::BodyState& box = ahead_[i].shown().objects()[0];
-        if (box.held) shown_[i].push_back({t, box.X_WO});
+        if (box.held) shown_.emplace(t, Shown{i, box.X_WO});
       }
     }
     return errors_;
@@ -100,49 +102,52 @@ class Run {
     return settings;
   }
 
-  /// Commits up to `stop` and compares with the poses displayed for these times.
+  struct Shown {
+    std::size_t ahead = 0;  ///< index into kAhead
+    RigidTransform X_WO;
+  };
+
+  /// Commits up to `stop` and compares with the poses displayed for these times. A copy stops at those before `stop`.
   void commit(double stop) {
-    const double before = simulation_.time();
-    const bodies::BodyState from = simulation_.objects()[0];
-    feed_.advance_to(stop);
-    const bodies::BodyState& to = simulation_.objects()[0];
-    const auto own = [](const bodies::BodyState& b) {
-      return Vector3d(b.X_WO.linear().transpose() * b.V_WO_W.angular);
-    };
-    const motion::MotionSegment path({before, from.X_WO}, from.V_WO_W.linear, own(from), {stop, to.X_WO},
-                                     to.V_WO_W.linear, own(to));
-    for (std::size_t i = 0; i < kAhead.size(); ++i) {
-      for (; !shown_[i].empty() && shown_[i].front().t <= stop; shown_[i].pop_front()) {
-        const motion::PoseSample& shown = shown_[i].front();
-        if (shown.t < before) continue;
-        const RigidTransform X = shown.t == stop ? to.X_WO : path.at(shown.t).X;
-        errors_[i].positions.push_back((X.translation() - shown.X.translation()).norm());
-        errors_[i].angles.push_back(math::turn_between(X, shown.X).norm());
-      }
+    shown_.erase(shown_.begin(), shown_.lower_bound(simulation_.time()));
+    const auto at_stop = shown_.lower_bound(stop);
+    if (shown_.begin() != at_stop) between_.follow(simulation_);
+    for (auto shown = shown_.begin(); shown != at_stop; ++shown) {
+      between_.advance(shown->first);
+      compare(shown->second, between_);
     }
+    feed_.advance_to(stop);
+    const auto end = shown_.upper_bound(stop);
+    for (auto shown = at_stop; shown != end; ++shown) compare(shown->second, simulation_);
+    shown_.erase(shown_.begin(), end);
+  }
+
+  void compare(const Shown& shown, const simulation::Simulation& committed) {
+    const RigidTransform& X_WO = committed.objects()[0].X_WO;
+    errors_[shown.ahead].positions.push_back((X_WO.translation() - shown.X_WO.translation()).norm());
+    errors_[shown.ahead].angles.push_back(math::turn_between(X_WO, shown.X_WO).norm());
   }
 
   const std::vector<motion::PoseSample>& samples_;
   scene::Scene scene_;
   simulation::SimulationSettings settings_;
-  simulation::Simulation simulation_{scene_, settings_};
+  simulation::Simulation simulation_{scene_, settings_}, between_{scene_, settings_};
   hand_input::Feed feed_{simulation_, hand_input::InputSettings()};
   std::vector<live::LookAhead> ahead_;
-  std::array<std::deque<motion::PoseSample>, kAhead.size()> shown_;
+  std::multimap<double, Shown> shown_;  ///< not committed yet, by time [s]
   std::array<Errors, kAhead.size()> errors_;
 };
 
 }  // namespace
 
-void write_prediction_table(const std::string& scene_path, const std::vector<std::string>& motions, double seconds,
-                            std::ostream& out) {
+void write_prediction_table(const std::string& scene_path, const std::vector<std::string>& motions, std::ostream& out) {
   const scene::Scene scene = scene::load_scene(scene_path);
   constexpr double mm = 1e3, degree = 180.0 / M_PI;
   out << std::setprecision(3)
       << "motion,contact,ahead [ms],samples,rms [mm],99 % [mm],largest [mm],rms [deg],99 % [deg]\n";
   for (const std::string& path : motions) {
-    const std::vector<motion::PoseSample> samples = above_the_bench(path, seconds);
-    for (const ContactMode contact : {ContactMode::none, ContactMode::stop}) {
+    const std::vector<motion::PoseSample> samples = above_the_bench(path);
+    for (const ContactMode contact : {ContactMode::none, ContactMode::stop, ContactMode::dynamic}) {
       const std::array<Errors, kAhead.size()> all = Run(samples, scene, contact).errors();
       for (std::size_t i = 0; i < kAhead.size(); ++i) {
         const auto& [p, a] = all[i];

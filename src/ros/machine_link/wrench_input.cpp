@@ -18,22 +18,19 @@ Vector3d vector_of(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-WrenchInput::WrenchInput(ros::NodeHandle private_node, std::size_t styluses, const std::string& world_frame,
+WrenchInput::WrenchInput(const ros::NodeHandle& private_node, std::size_t styluses, const std::string& world_frame,
                          const std::string& frame_prefix, double max_age, std::function<void()> wake)
     : name_(private_node.getNamespace()),
       world_frame_(world_frame),
       max_age_(max_age),
       wake_(std::move(wake)),
       sensors_(styluses, {"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(max_waiting), {}}) {
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
     Sensor& sensor = sensors_[hand];
     sensor.topic = private_node.resolveName("external_wrench" + ros_common::hand_suffix(hand));
     sensor.tip_frame = frame_prefix + "fork_tip" + ros_common::hand_suffix(hand);
-    sensor.subscriber = private_node.subscribe<geometry_msgs::WrenchStamped>(
-        sensor.topic, input_queue,
-        [this, &sensor](const geometry_msgs::WrenchStampedConstPtr& message) { on_wrench(sensor, *message); },
-        ros::VoidConstPtr(), hints);
+    sensor.subscriber = ros_common::CountedSubscriber::to<const geometry_msgs::WrenchStampedConstPtr&>(
+        private_node, sensor.topic, input_queue, [this, &sensor](const auto& message) { on_wrench(sensor, *message); });
   }
 }
 

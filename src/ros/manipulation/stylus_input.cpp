@@ -19,7 +19,7 @@ std::string place_of(const geometry_msgs::TransformStamped& transform) {
 
 }  // namespace
 
-StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::size_t hand,
+StylusInput::StylusInput(const ros::NodeHandle& node, const ManipulationParameters& parameters, std::size_t hand,
                          std::function<void()> wake)
     : parameters_(parameters),
       frame_(parameters.stylus_frame + ros_common::hand_suffix(hand)),
@@ -32,10 +32,13 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
       events_(max_waiting),
       early_poses_(max_early_messages),
       early_buttons_(max_early_messages) {
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  static_subscriber_ = node.subscribe("/tf_static", 100, &StylusInput::on_static_transforms, this, hints);
-  tf_subscriber_ = node.subscribe("/tf", input_queue, &StylusInput::on_transforms, this, hints);
-  joy_subscriber_ = node.subscribe(joy_, input_queue, &StylusInput::on_joy, this, hints);
+  using ros_common::CountedSubscriber;
+  static_subscriber_ = CountedSubscriber::to<const tf2_msgs::TFMessageConstPtr&>(
+      node, "/tf_static", 100, [this](const auto& message) { on_static_transforms(message); });
+  tf_subscriber_ = CountedSubscriber::to<const ros::MessageEvent<const tf2_msgs::TFMessage>&>(
+      node, "/tf", input_queue, [this](const auto& event) { on_transforms(event); });
+  joy_subscriber_ = CountedSubscriber::to<const sensor_msgs::JoyConstPtr&>(
+      node, joy_, input_queue, [this](const auto& message) { on_joy(message); });
 }
 
 std::vector<live::StylusEvent> StylusInput::take_events() {

@@ -2,18 +2,20 @@
 #include <sensor_msgs/Joy.h>
 
 #include "message_source.h"
+#include "spring_workbench/ros/common/counted_subscriber.h"
 
 namespace spring_workbench::tracker_driver {
 namespace {
 
 class JoySource final : public MessageSource {
  public:
-  JoySource(ros::NodeHandle node, const JoySettings& settings, const RigidTransform& X_WB)
+  JoySource(const ros::NodeHandle& node, const JoySettings& settings, const RigidTransform& X_WB)
       : motion_(settings, X_WB),
-        subscriber_(node.subscribe("joy", 10, &JoySource::on_joy, this, ros::TransportHints().tcpNoDelay())) {}
+        subscriber_(ros_common::CountedSubscriber::to<const sensor_msgs::JoyConstPtr&>(
+            node, "joy", 10, [this](const auto& message) { on_joy(message); })) {}
 
   motion::SourceHealth health() const override {
-    const std::string topic = subscriber_.getTopic();
+    const std::string topic = subscriber_.topic();
     const bool streaming = messages_ > 0;
     return {streaming,
             streaming ? "moved by " + topic
@@ -36,7 +38,7 @@ class JoySource final : public MessageSource {
 
   JoyMotion motion_;
   std::size_t messages_ = 0;
-  ros::Subscriber subscriber_;
+  ros_common::CountedSubscriber subscriber_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "spring_workbench/live/inbox.h"
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/motion/stream_clock.h"
+#include "spring_workbench/ros/common/counted_subscriber.h"
 #include "spring_workbench/ros/common/rejections.h"
 
 namespace spring_workbench::machine_link {
@@ -23,7 +24,7 @@ class WrenchInput {
   /// `styluses`: number of styluses; `world_frame`: frame of wrenches in world axes; `frame_prefix`: prefix of the tip
   /// frames; `max_age` [s]: a stamp further from now is replaced by the time of arrival. `wake` is called after each
   /// valid message.
-  WrenchInput(ros::NodeHandle private_node, std::size_t styluses, const std::string& world_frame,
+  WrenchInput(const ros::NodeHandle& private_node, std::size_t styluses, const std::string& world_frame,
               const std::string& frame_prefix, double max_age, std::function<void()> wake);
 
   /// Adds the wrenches since the last call.
@@ -37,7 +38,7 @@ class WrenchInput {
     std::string topic, tip_frame;
     motion::StreamClock clock;
     live::Inbox<live::StylusWrench> came;
-    ros::Subscriber subscriber;
+    ros_common::CountedSubscriber subscriber;
   };
   void on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& message);
   std::int64_t local_stamp(Sensor& sensor, const ros::Time& stamp) const;

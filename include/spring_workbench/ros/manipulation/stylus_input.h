@@ -15,6 +15,7 @@
 #include "spring_workbench/live/inbox.h"
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/motion/stream_clock.h"
+#include "spring_workbench/ros/common/counted_subscriber.h"
 #include "spring_workbench/ros/common/early_messages.h"
 #include "spring_workbench/ros/common/rejections.h"
 #include "spring_workbench/ros/common/simulated_clock.h"
@@ -48,7 +49,7 @@ class StylusInput {
  public:
   /// Subscribes to the child frame `stylus` and to `stylus/joy`, or to those of a further `hand` (button 0 grasps while
   /// it is down, button 1 selects the next tool). `wake` is called after each event.
-  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::size_t hand,
+  StylusInput(const ros::NodeHandle& node, const ManipulationParameters& parameters, std::size_t hand,
               std::function<void()> wake);
 
   /// Returns the events since the last call. The very first event, and the first after simulated time has jumped back,
@@ -96,7 +97,7 @@ class StylusInput {
   ros_common::Rejections rejections_;
   std::int64_t zero_ = 0;  ///< epoch in local time [ns]; 0 before the first input
   bool pressed_ = false, next_tool_ = false, clutch_ = false;
-  ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
+  ros_common::CountedSubscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };
 
 }  // namespace spring_workbench::manipulation
