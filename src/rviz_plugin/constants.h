@@ -19,7 +19,7 @@ constexpr int slider_positions = 1000;
 /// Time from closing rviz's windows until it exits without waiting for the ROS master [s]. If longer, rviz exits later
 /// when the master hangs; if much shorter, it exits while it still frees resources. Test:
 /// rviz_recovery_test.py::test_rviz_ends_while_the_master_hangs at 600.
-constexpr double exit_timeout = 5.0;
+constexpr double exit_timeout = 1.5;
 /// Time for building shapes in each frame [s]. If longer, rviz stalls while a scene is built; if shorter, the scene is
 /// complete later. Test: SceneObjectsTest.AFrameBuildsForAShortTime at 60.
 constexpr double build_time = 0.005;

@@ -41,6 +41,14 @@ DISPLAYS = {
 }
 
 
+TRIANGLE = "facet normal 0 0 0 outer loop vertex %s vertex %s vertex %s endloop endfacet"
+TETRAHEDRON = """<robot name="tetrahedron"><link name="tetrahedron">
+  <inertial><mass value="1"/><inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial>
+  <visual><geometry><mesh filename="tetrahedron.stl"/></geometry></visual>
+  <collision><geometry><sphere radius="0.05"/></geometry></collision>
+</link></robot>"""
+
+
 class SendFilePath:
     """The service of rviz, which has no Python module: an absolute path; whether it was loaded."""
 
@@ -90,8 +98,8 @@ class Stack:
         )
         return process
 
-    def manipulation(self, scene):
-        return self.start(DEVEL + "/lib/spring_workbench/manipulation", "_scene:=%s%s.urdf" % (SCENES, scene))
+    def manipulation(self, scene, folder=SCENES):
+        return self.start(DEVEL + "/lib/spring_workbench/manipulation", "_scene:=%s%s.urdf" % (folder, scene))
 
     def write_empty_view(self):
         """Writes a configuration without panels and displays; returns its path."""
@@ -299,6 +307,25 @@ class Recovery(unittest.TestCase):
         stack.stop(poses)
         self.expect_gone("the box without poses to go")
         self.assertIsNone(rviz.poll())
+
+    def test_a_mesh_is_shown_whose_file_rviz_does_not_have(self):
+        """As on another host: the folder of the scene is gone before rviz starts again."""
+        stack = self.stack
+        stack.master()
+        stack.stop(self.open_rviz("objects"))
+        folder = os.path.join(stack.folder, "bench")
+        os.mkdir(folder)
+        corners = ["0.2 0 0", "-0.2 0.2 0", "-0.2 -0.2 0", "0 0 0.3"]
+        facets = [TRIANGLE % tuple(c for c in corners if c != left_out) for left_out in corners]
+        with open(os.path.join(folder, "tetrahedron.stl"), "w") as file:
+            file.write("solid\n%s\nendsolid\n" % "\n".join(facets))
+        with open(os.path.join(folder, "tetrahedron.urdf"), "w") as file:
+            file.write(TETRAHEDRON)
+        stack.manipulation("tetrahedron", folder + "/")
+        described = ["rostopic", "echo", "-n", "1", "/manipulation/scene_description"]
+        subprocess.run(described, env=stack.environment, check=True, timeout=DEADLINE, stdout=subprocess.DEVNULL)
+        shutil.rmtree(folder)
+        self.start_rviz("objects", lambda: self.look()[0] > 1000)
 
     def test_rviz_ends_while_the_master_hangs(self):
         stack = self.stack
