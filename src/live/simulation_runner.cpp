@@ -81,6 +81,7 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
 /// While behind, poses are dropped, and buttons and sensors act at the time of the newest accepted pose.
 void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   was_behind_ |= pace_.is_behind();
+  if (!std::holds_alternative<ButtonsKnown>(event)) ahead_.input_changed();
   if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event))
     return std::visit([&](const auto& e) { apply(input, e); }, event);
   const double newest = simulation_.newest_sample();

@@ -29,7 +29,8 @@ class LookAhead {
   /// Restores the copy from `committed` and advances it to time `t` [s]. `feed`: the feed of `committed`.
   void show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t);
   /// Advances the copy to `horizon` [s] beyond the newest sample; never back, and no further than `committed` if `pace`
-  /// expects that to take too long. Returns the time of the copy beyond the newest sample [s].
+  /// expects that to take too long. Does nothing if the copy is there already. Returns the time of the copy beyond the
+  /// newest sample [s].
   double show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
                      const Pace& pace);
   const simulation::Simulation& shown() const { return copy_; }
@@ -42,10 +43,15 @@ class LookAhead {
   PredictionError compare(const simulation::Simulation& committed);
   /// Returns the position error that 99 % of the newest 1000 comparisons do not exceed [m].
   double position_error_99() const;
+  /// Reports that the input of `committed` or of its feed has changed.
+  void input_changed() { is_there_ = false; }
   /// Forgets the displayed poses, because the committed simulation was changed.
   void restart();
   /// Allows the displayed time to go back, because time has restarted.
-  void allow_time_back() { shown_until_ = -std::numeric_limits<double>::infinity(); }
+  void allow_time_back() {
+    shown_until_ = -std::numeric_limits<double>::infinity();
+    is_there_ = false;
+  }
 
  private:
   struct Held {
@@ -66,6 +72,7 @@ class LookAhead {
   simulation::Simulation copy_;
   HeldObjects held_in_copy_, held_in_committed_;
   bool has_followed_ = false;
+  bool is_there_ = false;  ///< nothing has changed since the copy was advanced to the newest sample
   double shown_until_ = -std::numeric_limits<double>::infinity();  ///< [s]
   std::deque<Held> shown_;
   std::vector<Held> before_;  ///< held objects of the committed simulation at the last comparison

@@ -196,13 +196,18 @@ class TrackerDriver {
     }
   }
 
+  /// The pose first, which the display waits for.
   void send(const motion::StationSample& sample) {
-    Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
-    const double t = station.stream.stamp(sample.received) - parameters_.latency;
+    send_pose(sample);
     if (joy_publishers_.count(sample.station) > 0) {
       send_buttons(sample.station, {sample.button, sample.next_tool, sample.clutch},
                    ros_common::ros_time(sample.received - parameters_.latency));
     }
+  }
+
+  void send_pose(const motion::StationSample& sample) {
+    Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
+    const double t = station.stream.stamp(sample.received) - parameters_.latency;
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     std::string reason = why_not_sent(sample, parameters_.source);
     if (reason.empty() && t <= station.newest) reason = "stamp not later";

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
@@ -82,6 +83,51 @@ TEST(LookAhead, ShowsTheNewestSampleAtOnceAndLeavesTheCommittedAlone) {
     }
   }
   EXPECT_TRUE(bench.shown().objects[0].held);
+}
+
+/// The copy is not advanced again while nothing has changed, so what is shown must not depend on when it was last asked
+/// for: after each event and change, or only now.
+TEST(LookAhead, WhatIsShownDoesNotDependOnHowOftenItIsAskedFor) {
+  Bench often, once;
+  std::mt19937 random(7);
+  const auto one_of = [&](unsigned n) { return random() % n; };
+  std::size_t held = 0;
+  for (int k = 0; k < 400; ++k) {
+    const double t = interval * k;
+    HandEvents events = often.sample(k, false);
+    if (one_of(3) == 0) events[0].push_back(ButtonsKnown{t, {t, t}});
+    if (one_of(5) == 0) events[0].push_back(StylusButton{t - 0.3 * interval, static_cast<motion::Press>(one_of(3))});
+    if (one_of(5) == 0) {
+      StylusWrench wrench;
+      wrench.stamp = std::llround(1e9 * (t - 0.6 * interval));
+      wrench.sample.wrench.force = Vector3d(1.0 + one_of(9), 0.0, 0.0);
+      events[0].push_back(wrench);
+    }
+    Command command;
+    command.kind = std::array{Command::Kind::release, Command::Kind::calibrate, Command::Kind::clutch}[one_of(3)];
+    const bool changes = one_of(20) == 0, restarts = one_of(50) == 0;
+    for (Bench* bench : {&often, &once}) {
+      for (std::size_t i = 0; i < events[0].size(); ++i) {
+        bench->commit({{0, {events[0][i]}}}, t);
+        if (bench == &often) bench->show(0.0, t);
+      }
+      if (restarts) bench->runner.restart();
+      try {
+        if (changes) bench->runner.change("test", command);
+      } catch (const validation::InputError&) {  // nothing is held
+      }
+      bench->show(0.0, t);
+    }
+    ASSERT_EQ(often.shown().time, once.shown().time) << k;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bodies::BodyState &a = often.shown().objects[i], &b = once.shown().objects[i];
+      ASSERT_EQ(a.X_WO.matrix(), b.X_WO.matrix()) << k;
+      ASSERT_EQ(a.held, b.held) << k;
+      held += a.held ? 1 : 0;
+    }
+    ASSERT_EQ(often.shown().tools[0].tip_wrench_W.force, once.shown().tools[0].tip_wrench_W.force) << k;
+  }
+  EXPECT_GT(held, 50u);
 }
 
 TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
