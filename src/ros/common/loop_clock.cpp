@@ -85,9 +85,11 @@ void sleep_until_loop_time(double t) {
 }
 
 void Alarm::ring() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  rung_ = true;
-  condition_.notify_one();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    rung_ = true;
+  }
+  condition_.notify_one();  // the other thread does not have to wait for the lock
 }
 
 void Alarm::sleep_until(double t) {

@@ -35,8 +35,10 @@ void Outbox::take_shown(double latency, const hand_input::LocalTime& now) {
   std::optional<live::Shown> shown =
       runner_.show(latency, now, [this](const live::Moment& moment) { return shown_due_.due(moment); });
   if (!shown) return;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  shown_ = ShownState{std::move(*shown), shown_due_.stamp, now.loop};
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    shown_ = ShownState{std::move(*shown), shown_due_.stamp, now.loop};
+  }
   condition_.notify_one();
 }
 
@@ -47,6 +49,7 @@ bool Outbox::take_committed(const live::CycleReport& report, double deadline) {
   if (!committed) return false;
   std::unique_lock<std::mutex> lock(mutex_);
   committed_.put({std::move(*committed), committed_due_.stamp, report, deadline}, lock);
+  lock.unlock();
   condition_.notify_one();
   return true;
 }

@@ -83,7 +83,6 @@ void StatePublisher::publish(ShownState state) {
   horizon_ = state.shown.horizon;
   live::View& view = state.shown.view;
   const std_msgs::Header header = header_at(state.stamp);
-  frames_.publish(view, state.stamp);
   shown_objects_.publish(view, header);
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     tools::ToolState& tool = view.tools[hand];
@@ -91,6 +90,7 @@ void StatePublisher::publish(ShownState state) {
     if (hand == 0 || tool.present)
       publish_made(hands_[hand].shown_fork, header, [&] { return to_message(tool, fork_diameter_); });
   }
+  frames_.publish(view, state.stamp);
   markers_were_built_ = markers_.publish(view, header, state.local_time);
 }
 
