@@ -18,7 +18,7 @@ using scene::ContactMode;
 
 constexpr double kFork = 0.2;                                            // [m] from the handle to the tip
 constexpr std::array<double, 5> kAhead = {0.0, 0.01, 0.02, 0.03, 0.05};  // [s]
-constexpr double kInTheAir = 0.03;  // [m] initial height of the box above the bench
+constexpr double kInTheAir = 0.03;  // [m] initial height of the box above the bench, if the motion goes as high
 
 /// The scene of one box, with the box at the tip of a fork that points down.
 scene::Scene held_at(const Vector3d& handle, scene::Scene scene, ContactMode contact) {
@@ -39,8 +39,9 @@ std::vector<motion::PoseSample> above_the_bench(const std::string& path) {
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
   const double touching = *middle;
+  const double in_the_air = std::min(touching + kInTheAir, *std::max_element(heights.begin(), heights.end()));
   const auto first = std::find_if(samples.begin(), samples.end(), [&](const motion::PoseSample& sample) {
-    return sample.X.translation().z() > touching + kInTheAir;
+    return sample.X.translation().z() >= in_the_air;
   });
   samples.erase(samples.begin(), first);
   const Matrix3d down = Quaterniond(0.0, 1.0, 0.0, 0.0).toRotationMatrix();
