@@ -28,7 +28,7 @@ constexpr double longest_lag = 0.5;
 constexpr double longest_look_ahead = 0.1;
 /// Processor time of a commit beyond which the next cycle continues it [s]. If longer, services wait longer while the
 /// simulation cannot keep up; if shorter than a usual commit, the committed state gets more stops than samples. Test:
-/// Pace.ASilenceThatCannotBeSimulatedInTimeKeepsNobodyWaiting at 2.
+/// Pace.ACycleCommitsWhatItCanSimulateInTime.
 constexpr double longest_cycle = 0.1;
 
 /// Number of edits and resets that can be undone. If more, more memory is needed: a whole state for each. Test:
