@@ -282,7 +282,9 @@ def compare(messages, rows):
     for change in messages[TOPICS[1]]:
         if not change.state and math.isfinite(change.committed):
             zeros.add(change.header.stamp.to_nsec() - round(change.committed * 1e9))
-    stamps = [m.header.stamp.to_nsec() for m in messages[TOPICS[1]]]
+    # Another listener's journal may have been under way: this one begins with the first state.
+    begin = next(m.header.stamp.to_nsec() for m in messages[TOPICS[1]] if m.state)
+    end = messages[TOPICS[1]][-1].header.stamp.to_nsec()
     replayed = {}  # where no hand is known, the stamp is the clock's: the state is that after a change
     for (_, name), states in rows.items():
         replayed.setdefault(name, set()).update(states)
@@ -291,7 +293,7 @@ def compare(messages, rows):
         stamp = message.header.stamp.to_nsec()
         for state in message.objects:
             found = [n for zero in zeros for n in rows.get((stamp - zero, state.name), [])]
-            if stamp <= stamps[0] or (not found and stamp > stamps[-1]):
+            if stamp <= begin or (not found and stamp > end):
                 outside += 1  # before the journal, or after it
                 continue
             numbers = numbers_of(state)
