@@ -633,7 +633,8 @@ ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
   for (Hand* of : impl_->chosen(hand)) done = of->calibrate(change, impl_->now) || done;
-  if (!done) throw validation::InputError("calibrate: no fork or spring holds an object; call it while one does");
+  if (!done)
+    throw validation::InputError("calibrate: no object is held by a fork or spring; call it while one is held");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }

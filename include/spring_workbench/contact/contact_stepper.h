@@ -38,10 +38,9 @@ class ContactStepper {
   /// Adds the contacts found with the body at `X_WO`, with the gaps at that pose.
   void add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
-  /// Removes the approach speed of the contacts, with the restitution of the materials or none. An open contact is left
-  /// at most the speed at which it closes in `h` [s], so that a body that lands on several points lands on all of them
-  /// at once. Compliant materials that are already loaded, or that approach slowly, yield as they would over the next
-  /// substep, of `substep` [s].
+  /// Removes the approach speed of the contacts, with the restitution of the materials or none. An open contact keeps
+  /// at most the speed at which it closes in `h` [s], so a body lands on several points at once. Compliant materials
+  /// that are loaded or approach slowly yield as over the next substep, of `substep` [s].
   enum class Bounce { none, of_materials };
   void collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h, double substep) const;
   /// Advances the body by `h` from the start of the present trial, under loads that leave the gaps of the rows closed

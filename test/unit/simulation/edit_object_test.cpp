@@ -204,7 +204,7 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
          "edit_object: name: must be an object that no tool holds or pushes, got held, which a tool holds or pushes");
   expect({Action::move, "below", "", std::nullopt}, "edit_object: pose: missing");
   expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "edit_object: pose: must be a finite pose");
-  expect(addition("wall", std::nullopt), "edit_object: name: must be a name that no body of the scene has");
+  expect(addition("wall", std::nullopt), "edit_object: name: must be a new name");
   expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt},
          "edit_object: urdf: must be an existing file");
   expect({static_cast<Action>(77), "held", "", std::nullopt},
