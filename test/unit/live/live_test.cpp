@@ -100,7 +100,7 @@ TEST(LookAhead, WhatIsShownDoesNotDependOnHowOftenItIsAskedFor) {
     if (one_of(5) == 0) {
       StylusWrench wrench;
       wrench.stamp = std::llround(1e9 * (t - 0.6 * interval));
-      wrench.sample.wrench.force = Vector3d(1.0 + one_of(9), 0.0, 0.0);
+      wrench.sample.wrench.force = Vector3d(1.0 + static_cast<double>(one_of(9)), 0.0, 0.0);
       events[0].push_back(wrench);
     }
     Command command;
