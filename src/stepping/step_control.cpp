@@ -32,6 +32,25 @@ void set_modes(const dynamics::HeldBody& body, const dynamics::HandleForcing& ha
       modes.vectors * omega.cwiseMax(1.0 / longest_swing).cwiseInverse().asDiagonal() * modes.vectors.transpose() * M;
 }
 
+void begin_bound(const dynamics::HeldBody& body, double t, const dynamics::StrainState& state,
+                 StepControl::Memory& memory) {
+  const Eigen::Index n = state.q.size();
+  const bool free = !body.loaded();
+  const bool goes_on = memory.spread.rows() == 2 * n && memory.t == t && memory.end.q == state.q &&
+                       memory.end.q_dot == state.q_dot && (memory.bounded || !free);
+  memory.bounded = free;
+  if (goes_on) return;
+  memory.exact = state;
+  memory.spread = dynamics::RunError::Moments::Zero(2 * n, 2 * n);
+}
+
+/// Restarts the bound at this state; in this span there is none.
+void forget_error(const dynamics::StrainState& state, StepControl::Memory& memory) {
+  memory.exact = state;
+  memory.spread.setZero();
+  memory.bounded = false;
+}
+
 }  // namespace
 
 struct StepControl::Span {
@@ -76,7 +95,7 @@ ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion
   dynamics::StrainState next = state;
   span.report.accepted = usable(next) && body.shape().admissible(body.full_state(t, next).q);
   if (!span.report.accepted) return span.report;
-  if (error_bound_) begin_bound(span, t, next);
+  if (error_bound_) begin_bound(body, t, next, memory);
   if (memory.version != body.version() || memory.t != t || memory.error.q.size() != body.size()) {
     if (memory.version != body.version() || memory.swing.rows() != body.size())
       set_modes(body, body.forcing(handle, t), next.q, memory);
@@ -88,8 +107,9 @@ ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion
     steps_to_tolerance(span, t, h, next);
   } else {
     const int level = std::max(0, std::exchange(memory.level, 0) - 1);
+    bool taken = true;
     for (int i = 0, count = 1 << level; i < count; ++i) {
-      step_in_halves(span, t + i * h / count, h / count, level, next);
+      taken = step_in_halves(span, t + i * h / count, h / count, level, !taken, next);
     }
   }
   span.report.accepted = usable(next);
@@ -157,25 +177,6 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
   span.report.omega_dt = std::max(span.report.omega_dt, known > 0.0 ? known : span.memory.stiffest_omega * h);
 }
 
-void StepControl::begin_bound(const Span& span, double t, const dynamics::StrainState& state) const {
-  Memory& memory = span.memory;
-  const Eigen::Index n = state.q.size();
-  const bool free = !span.body.loaded();
-  const bool goes_on = memory.spread.rows() == 2 * n && memory.t == t && memory.end.q == state.q &&
-                       memory.end.q_dot == state.q_dot && (memory.bounded || !free);
-  memory.bounded = free;
-  if (goes_on) return;
-  memory.exact = state;
-  memory.spread = dynamics::RunError::Moments::Zero(2 * n, 2 * n);
-}
-
-/// Restarts the bound at this state; in this span there is none.
-void StepControl::forget_error(Memory& memory, const dynamics::StrainState& state) {
-  memory.exact = state;
-  memory.spread.setZero();
-  memory.bounded = false;
-}
-
 void StepControl::follow_error(Span& span, double t, double h, const Tried& tried,
                                const dynamics::StrainState& begin) const {
   const dynamics::HeldBody& body = span.body;
@@ -201,7 +202,7 @@ void StepControl::follow_error(Span& span, double t, double h, const Tried& trie
   known =
       known && usable(exact) && memory.spread.allFinite() && body.shape().admissible(body.full_state(t + h, exact).q);
   if (known) known = !body.rechart(exact);
-  if (!known) return forget_error(memory, tried.state);
+  if (!known) return forget_error(tried.state, memory);
   span.report.bounds.add({local, 0.0, 0.0, 0});
 }
 
@@ -219,7 +220,7 @@ void StepControl::end_bound(Span& span, double t, const dynamics::StrainState& s
   memory.angle_bound = math::turn_between(as_should_be, as_is).norm() + std::sqrt(squared.tail<3>().sum());
   // Further out than the rod is long, what holds to first order says nothing.
   if (!(extent < body.shape().length() && std::isfinite(memory.error_bound + memory.angle_bound))) {
-    forget_error(memory, state);
+    forget_error(state, memory);
     memory.error_bound = memory.angle_bound = 0.0;
   }
   span.report.bounds.add({0.0, memory.error_bound, memory.angle_bound, 0});
@@ -233,28 +234,33 @@ void StepControl::fall_back(Span& span, double t, double h, dynamics::StrainStat
   take(span, t, h, tried, state);
 }
 
-void StepControl::step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const {
-  span.memory.level = std::max(span.memory.level, level);
+bool StepControl::step_in_halves(Span& span, double t, double h, int level, bool failed,
+                                 dynamics::StrainState& state) const {
   Tried tried = try_step(span, t, h, state);
-  const bool shortest = level == most_halvings || !integrator_->stiffly_stable();
+  const bool last = failed || level == most_halvings || !integrator_->stiffly_stable();
   const double energy = std::max(span.memory.energy, tried.energy);
-  // The shortest may run into debt, which later ones pay: what comes in its place errs by far more.
-  const double saved = span.memory.energy_saved, credit = shortest ? saved + energy_reserve : std::max(saved, 0.0);
+  // The last may run into debt, which later ones pay: what comes in its place errs by far more.
+  const double saved = span.memory.energy_saved, credit = last ? saved + energy_reserve : std::max(saved, 0.0);
   const double share = energy_drift_rate * (h + credit) * energy;
   const auto fine = [&] {
     if (integrator_->energy() == dynamics::Integrator::Energy::kept) return tried.energy_error <= share;
     return integrator_->energy() != dynamics::Integrator::Energy::dissipated ||
            energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state) <= share;
   };
-  if (tried.solved && fine()) {
+  bool good = tried.solved && fine();
+  if (good) {
     const double estimated = tried.energy_error;
     weigh(span, t, h, state, tried);
-    if (tried.energy_error == estimated || fine()) return take(span, t, h, tried, state);
+    good = tried.energy_error == estimated || fine();
   }
-  if (shortest) return fall_back(span, t, h, state);
-  ++span.report.substeps;
-  step_in_halves(span, t, 0.5 * h, level + 1, state);
-  step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, state);
+  if (!good && !last) {
+    ++span.report.substeps;
+    good = step_in_halves(span, t, 0.5 * h, level + 1, false, state);
+    return step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, !good, state) || good;
+  }
+  if (good) span.memory.level = std::max(span.memory.level, level);
+  good ? take(span, t, h, tried, state) : fall_back(span, t, h, state);
+  return good;
 }
 
 void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::StrainState& state) const {

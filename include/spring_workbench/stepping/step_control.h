@@ -44,8 +44,9 @@ struct ControlledStep {
 /// solve its equation or conserve energy well enough (Integrator::Energy). Its energy error (its own estimate or the
 /// gain seen in the motion, whichever is larger) may add up, in a minute, to a hundredth of the energy there is; a
 /// method that dissipates energy may gain as much. The shortest steps may use the budget of a tenth of a second in
-/// advance. A step that still fails is taken by an L-stable rule that always has a solution (fallback_step.h). A strain
-/// beyond the rod's range meets a stop (range_stop.h). So every span is completed.
+/// advance. A step that still fails is taken by an L-stable rule that always has a solution (fallback_step.h); where
+/// the method takes none of two neighbouring parts of a span, that rule takes the next, longer part as a whole. A
+/// strain beyond the rod's range meets a stop (range_stop.h). So every span is completed.
 ///
 /// A tolerance bounds the error of the run at any time: the estimates of all local errors so far, each propagated to
 /// the present by the method itself. Its size is the distance of the object's centre of mass from where it should be
@@ -109,11 +110,11 @@ class StepControl {
   static void weigh(const Span& span, double t, double h, const dynamics::StrainState& state, Tried& tried);
   void take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const;
   void fall_back(Span& span, double t, double h, dynamics::StrainState& state) const;
-  void step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const;
+  /// Takes a 2^level-th part of the span. `failed`: the method took no step of the part before it, of the same length,
+  /// so this part is not divided. Returns whether it took any.
+  bool step_in_halves(Span& span, double t, double h, int level, bool failed, dynamics::StrainState& state) const;
   void steps_to_tolerance(Span& span, double t, double h, dynamics::StrainState& state) const;
-  void begin_bound(const Span& span, double t, const dynamics::StrainState& state) const;
   void follow_error(Span& span, double t, double h, const Tried& tried, const dynamics::StrainState& begin) const;
-  static void forget_error(Memory& memory, const dynamics::StrainState& state);
   void end_bound(Span& span, double t, const dynamics::StrainState& state) const;
 
   std::unique_ptr<dynamics::Integrator> integrator_;
