@@ -164,7 +164,7 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
     span.report.energy_added +=
         tried.energy_added ? *tried.energy_added : slow_down(body, span.handle, t, h, state, next);
   }
-  body.rechart(next);
+  if (body.rechart(next)) ++span.report.stops;
   state = next;
   ++span.report.steps;
   span.report.position_error = std::max(span.report.position_error, tried.position_error);

@@ -29,7 +29,7 @@ struct ControlledStep {
   int steps = 0;                ///< steps taken
   int substeps = 0;             ///< discarded attempts, each repeated with shorter steps (not the steps taken instead)
   int fallback = 0;             ///< steps taken by fallback_step()
-  int stops = 0;                ///< steps that met the end of the rod's range
+  int stops = 0;                ///< steps that met the end of the rod's range, or of the bushing's chart
   double position_error = 0.0;  ///< largest estimate of a step's local error, at the object's centre of mass [m]
   double angle_error = 0.0;     ///< the same of its attitude [rad]
   double energy_error = 0.0;    ///< sum of the estimates of the steps' errors in energy [J]
