@@ -76,9 +76,7 @@ class Exponential::CoreOf final : public Core {
 
   void linearise(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
     refactorisation_.restart(q);
-    const ModalDecomposition found = modal_decomposition(body, handle, q);
-    if (version_ == body.version() && !(found.to_modes.allFinite() && found.from_modes.allFinite())) return;
-    steps_.set(found);
+    steps_.set(modal_decomposition(body, handle, q));
     version_ = body.version();
   }
 
