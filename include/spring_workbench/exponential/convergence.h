@@ -13,12 +13,14 @@ namespace spring_workbench::exponential {
 class Convergence {
  public:
   /// Assumes nothing about the next step from those before.
-  void restart() { squared_error_ = 0.0; }
-  /// A step takes no rate from another: until its second iteration tells one, left_at_unknown holds.
+  void restart() {
+    rate_ = 1.0;
+    squared_error_ = 0.0;
+  }
   void begin_step() {
     iterations_ = 0;
     squared_before_ = left_ = 0.0;
-    rate_ = present_rate_ = 1.0;
+    rate_ = present_rate_ = std::min(1.0, rate_ * rate_growth);
     ended_ = converged_ = cancelled_ = false;
   }
   /// Records an iteration: the squared size of its change at all nodes and at the end of the step, and that of the
@@ -54,7 +56,7 @@ class Convergence {
   /// Predicted sum of all changes after the first iteration, relative to the change of that iteration.
   double left_after_first() const { return left_at(rate_); }
 
-  void exchange(math::StateArchive& state) { state(squared_error_); }
+  void exchange(math::StateArchive& state) { state(rate_, squared_error_); }
 
   static constexpr int max_iterations = 12;
   /// The iteration ends when further iterations would change less than the first fraction of the last step's
@@ -65,6 +67,11 @@ class Convergence {
   /// After this many iterations, one that leaves more than slow_rate of the last change ends the step.
   static constexpr int iterations_to_judge = 5;
   static constexpr double slow_rate = 0.7;
+  /// Assumed from one step to the next, until a step with two iterations tells: the rate is lowest at the linear part.
+  /// Not derived. Without growth a stale rate ends steps too early (Convergence.DoesNotRelyOnTheRateOfAnOldStep); with
+  /// 1e9, which is no rate at all, the default fork, the reference trajectories and the error bounds are as with 1.3,
+  /// but a step where load and springs cancel is halved (StepControl.GoesOnInWholeStepsWhereALoadAndTheSpringsCancel).
+  static constexpr double rate_growth = 1.3;
   static constexpr double left_at_unknown = 1e3;  ///< left() at an unknown rate, or without convergence
 
   static double left_at(double rate) { return rate < 1.0 ? rate / (1.0 - rate) : left_at_unknown; }
@@ -72,10 +79,10 @@ class Convergence {
     return squared_left_ <= std::max(fraction * fraction * squared_error_, squared_rounding_);
   }
 
+  double rate_ = 1.0;           ///< from the first to the second iteration; in a step with only one: assumed
   double squared_error_ = 0.0;  ///< collocation error of the last step
   // Of the present step.
   int iterations_ = 0;
-  double rate_ = 1.0;  ///< from the first to the second iteration; 1: not known
   double present_rate_ = 1.0, squared_before_ = 0.0, left_ = 0.0, squared_left_ = 0.0, squared_rounding_ = 0.0;
   bool ended_ = false, converged_ = false, cancelled_ = false;
 };
