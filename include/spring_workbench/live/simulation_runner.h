@@ -150,8 +150,7 @@ class SimulationRunner {
     return journal_.take();
   }
   HandStatistics hand_statistics(std::size_t hand) const;
-  /// See LookAhead.
-  double prediction_error_99() const {
+  double prediction_error_99() const {  ///< see LookAhead
     return locked([this](const auto&) { return ahead_.position_error_99(); });
   }
 

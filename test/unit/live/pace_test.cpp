@@ -200,7 +200,7 @@ TEST(Pace, ASilenceThatCannotBeSimulatedInTimeKeepsNobodyWaiting) {
   command.dynamics_change.step = 1e-6;
   runner.change("set_integrator", command);
   const double silent_since = runner.locked([](const auto& s) { return s.time(); });
-  double longest = 0.0;  // simulated by one cycle [s]
+  double longest = 0.0;                          // simulated by one cycle [s]
   for (int cycles = 0; cycles < 20; ++cycles) {  // half a second of silence at once, and more
     const CycleReport report = cycle({}, t + 0.6 + 0.05 * cycles);
     longest = std::max(longest, report.advance.simulated_time);

@@ -58,8 +58,7 @@ class StylusInput {
   /// Counts and logs the poses that the gate rejected.
   void count_rejected(const std::vector<live::RejectedPose>& poses);
   InputStatistics statistics() const;
-  /// Returns whether the pose of the workbench is known from /tf_static.
-  bool workbench_known() const;
+  bool workbench_known() const;  ///< whether the pose of the workbench is known from /tf_static
 
  private:
   void on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
@@ -83,8 +82,7 @@ class StylusInput {
   mutable std::mutex mutex_;
   StaticFrames static_frames_;
   motion::SenderChoice sender_;
-  // For wall time.
-  motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;
+  motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;  ///< as the next two, for wall time
   std::int64_t host_steps_ = 0;  ///< of this host's wall clock at the newest message [ns]
   motion::StreamClock wall_buttons_;
   live::Inbox<live::StylusEvent> events_;
