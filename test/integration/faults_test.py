@@ -125,7 +125,9 @@ class StoppedThread:
             raise OSError(ctypes.get_errno(), "ptrace")
 
     def let_go(self):
-        self.ask(self.DETACH)
+        if self.thread:
+            self.ask(self.DETACH)
+        self.thread = None
 
 
 class Faults(unittest.TestCase):
@@ -380,10 +382,13 @@ class Faults(unittest.TestCase):
         wait_for(lambda: senders() > before, "another sender")
         self.follow(poses)
         callbacks = StoppedThread(node.pid, "input")
+        self.addCleanup(callbacks.let_go)
         noise = Written(TFMessage([TransformStamped(child_frame_id="noise")]))
         for _ in range(count):
             self.hand.tf.publish(noise)
-        wait_for(lambda: told() == str(count - queue), "the lost messages to be counted")
+        wait_for(lambda: int(told()) >= count - queue, "the lost messages to be counted")
+        print("%d sent, %s lost" % (count, told()))
+        self.assertLess(int(told()), count - queue + 100)  # some of the hand's may have been waiting
         callbacks.let_go()
         self.follow(poses)
         self.end(node)
