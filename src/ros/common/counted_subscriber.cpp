@@ -1,5 +1,6 @@
 #include "spring_workbench/ros/common/counted_subscriber.h"
 
+#include <algorithm>
 #include <atomic>
 #include <boost/make_shared.hpp>
 #include <mutex>
@@ -90,7 +91,7 @@ CountedSubscriber::CountedSubscriber(ros::NodeHandle& node, ros::SubscribeOption
 std::map<std::string, std::size_t> CountedSubscriber::lost() {
   std::map<std::string, std::size_t> result;
   const std::lock_guard<std::mutex> lock(counters().mutex);
-  for (const auto& [topic, counter] : counters().by_topic) result[topic] += counter->lost();
+  for (const auto& [topic, counter] : counters().by_topic) result[topic] = std::max(result[topic], counter->lost());
   return result;
 }
 

@@ -28,7 +28,8 @@ class CountedSubscriber {
   }
   std::string topic() const { return subscriber_.getTopic(); }
 
-  /// Number of messages that this process has lost so far, by topic, of all counted subscribers.
+  /// Number of messages that this process has lost so far, by topic: if it has several counted subscribers of one, as
+  /// each hand has one of /tf, of that which has lost most.
   static std::map<std::string, std::size_t> lost();
 
  private:
