@@ -18,6 +18,11 @@ endif()
 # headers would come from either.
 set(SPRING_WORKBENCH_COLD $<$<CONFIG:Release>:-O1>)
 
+# Faster to compile by a tenth: GCC frees memory only beyond a gigabyte.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options(--param=ggc-min-heapsize=1048576)
+endif()
+
 # Packs of four numbers are passed by reference only, or inlined: the calling convention for them does not matter.
 add_compile_options(-Wno-psabi)
 
@@ -71,11 +76,4 @@ function(add_module name)
   target_compile_definitions(${target} PRIVATE ${MODULE_DEFINITIONS})
   target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS} ${MODULE_OPTIONS})
   target_link_libraries(${target} PUBLIC ${MODULE_DEPENDS} ${MODULE_LIBRARIES})
-  if(MODULE_OPTIONS)
-    precompile_headers(${target} arithmetic)
-  elseif(MODULE_FOLDER MATCHES "^ros/")
-    precompile_headers(${target} ros)
-  elseif(MODULE_DEPENDS)
-    precompile_headers(${target} core)
-  endif()
 endfunction()
