@@ -26,7 +26,7 @@ struct BouncingContact {
 /// energy. Unlike Newton's law, this returns no more energy than was lost. If the fractions differ, it might; all
 /// fractions are then reduced. `responses`: of the bodies' velocities to impulses, of size 0 for bodies that do not
 /// move. Adds the new impulses to those of the contacts, and their effect to `change`.
-void give_back(const std::vector<Eigen::MatrixXd>& responses, const std::vector<BouncingContact*>& contacts,
-               std::vector<Vector6d>& change);
+void apply_restitution(const std::vector<Eigen::MatrixXd>& responses, const std::vector<BouncingContact*>& contacts,
+                       std::vector<Vector6d>& change);
 
 }  // namespace spring_workbench::friction

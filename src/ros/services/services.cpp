@@ -198,7 +198,7 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
   change("clutch", set_clutch, SetClutch());
   const auto reset = [&runner](auto&, auto& response) {
     runner.restart();
-    response.message = "all objects are back at their start";
+    response.message = "all objects are back at their start poses";
   };
   serve("reset", reset, std_srvs::Trigger());
   const auto undo = [&runner](auto&, auto& response) { response.message = "undone: " + runner.undo(); };
