@@ -31,11 +31,11 @@ class CollocationStep {
 
   /// Intermediate results of the last step. They have no effect on the next one.
   struct Done {
-    Forcing forcing;         ///< at the nodes
-    Strain q0, q_dot0;       ///< at the start
-    NodeStrains residual{};  ///< at the nodes
-    NodeModes x{};           ///< at the nodes
-    NodeModes defect{};      ///< of the residual at the samples, in modes
+    Forcing forcing;         ///< forcing at the nodes
+    Strain q0, q_dot0;       ///< strain and rate at the start
+    NodeStrains residual{};  ///< residual at the nodes
+    NodeModes x{};           ///< modes at the nodes
+    NodeModes defect{};      ///< defect of the residual at the samples, in modes
   };
   const Done& done() const { return done_; }
 

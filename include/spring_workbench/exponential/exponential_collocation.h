@@ -65,7 +65,7 @@ class ExponentialCollocation {
   SPRING_WORKBENCH_INLINE void drive(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
     Operators::drive(operators_.node, from, residual, x);
   }
-  /// The same at the samples.
+  /// Modes at the samples under the same polynomial.
   SPRING_WORKBENCH_INLINE void drive_samples(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
     Operators::drive(operators_.sample, from, residual, x);
   }
@@ -77,7 +77,7 @@ class ExponentialCollocation {
     for (int m = 0; m < 2 * n; ++m) e[m] = math::sum(by_samples[at(m)]);
     return e;
   }
-  /// The same on the modes at the nodes.
+  /// Effect of such a defect on the modes at the nodes.
   SPRING_WORKBENCH_INLINE NodeModes effect(const NodeModes& defect) const {
     NodeModes e;
     Operators::drive(operators_.defect, NodeModes{}, defect, e);

@@ -43,10 +43,10 @@ class Refactorisation {
   static constexpr int budget = 150;
 
  private:
-  Strain begin_ = Strain::Zero();  ///< of the last step
+  Strain begin_ = Strain::Zero();  ///< strain at the start of the last step
   double path_ = 0.0;              ///< length of the path of the strain with this linear part [m √kg]
   int steps_ = 0;                  ///< with this linear part
-  int slow_iterations_ = 0;        ///< beyond fast_iterations, with this linear part
+  int slow_iterations_ = 0;        ///< iterations beyond fast_iterations, with this linear part
 };
 
 }  // namespace spring_workbench::exponential

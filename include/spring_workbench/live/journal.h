@@ -19,7 +19,7 @@ struct Change {
   std::string what;               ///< name of the change, e.g. the service
   Command command;                ///< the change as a command, to be repeated in a replay
   std::string scene;              ///< path of the scene that the state belongs to
-  std::uint64_t hash_before = 0;  ///< of the state before the change
+  std::uint64_t hash_before = 0;  ///< hash of the state before the change
   simulation::SimulationState
       state;  ///< state after the change; empty if nothing changed and only the hash is recorded
 };
