@@ -305,9 +305,10 @@ void follow(const RodCase& one, const MapHandMotion& hand, double step, CellRun&
       last = t;
     }
     reached = end;
-    if (one.mass == 0.0 || run.energy() == Energy::of_its_own || !watch.is_certain()) continue;
+    if (one.mass == 0.0 || run.energy() == Energy::not_applicable || !watch.is_certain()) continue;
     outcome.energy_growth = std::max(outcome.energy_growth, watch.growth());
-    if (run.energy() == Energy::kept) outcome.energy_estimated = std::max(outcome.energy_estimated, watch.estimates());
+    if (run.energy() == Energy::conserved)
+      outcome.energy_estimated = std::max(outcome.energy_estimated, watch.estimates());
     outcome.energy_judged = end == hand.samples.back().t;
   }
   if (hand.samples.back().t > reached) go_to(hand.samples.back().t);

@@ -11,8 +11,8 @@ namespace {
 
 /// What contacts give back of the impulses `stopped` that have ended their approach and changed the velocity `v` of the
 /// body; added to `stopped`.
-void give_back(const Matrix6d& mobility, const Vector6d& v, const std::vector<double>& shares,
-               std::vector<ContactRow>& stopped) {
+void apply_restitution(const Matrix6d& mobility, const Vector6d& v, const std::vector<double>& shares,
+                       std::vector<ContactRow>& stopped) {
   std::vector<friction::BouncingContact> contacts;
   std::vector<friction::BouncingContact*> all;
   for (std::size_t i = 0; i < stopped.size(); ++i) {
@@ -23,7 +23,7 @@ void give_back(const Matrix6d& mobility, const Vector6d& v, const std::vector<do
   }
   for (friction::BouncingContact& contact : contacts) all.push_back(&contact);
   std::vector<Vector6d> change{mobility * to_vector(total_load(stopped)), Vector6d::Zero()};
-  friction::give_back({mobility, Eigen::MatrixXd()}, all, change);
+  friction::apply_restitution({mobility, Eigen::MatrixXd()}, all, change);
   for (std::size_t i = 0; i < stopped.size(); ++i) stopped[i].load_W = axes_of(stopped[i]) * contacts[i].impulse;
 }
 
@@ -48,7 +48,7 @@ Wrench impact(friction::ContactProblem& problem, const Matrix6d& mobility, const
   end_approach(v, true);
   if (*std::max_element(restitution.begin(), restitution.end()) > 0.0) {
     std::vector<ContactRow> bounced = contacts;
-    give_back(mobility, v, restitution, bounced);
+    apply_restitution(mobility, v, restitution, bounced);
     end_approach(v + mobility * to_vector(total_load(bounced)), false);
     for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].load_W += bounced[i].load_W;
   }

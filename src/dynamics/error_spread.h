@@ -43,8 +43,8 @@ class ErrorSpread {
     for (int m = 0; m < 2 * n; ++m) e[at(m)] -= guess[at(m)];
     constexpr std::size_t last = exponential::Collocation::count - 1;
     const double missed = amplitude(propagator, missed_at_nodes)[last], changed = amplitude(propagator, e)[last];
-    run.unsure = missed + math::largest(amplitude(propagator, propagator.effect_of_highest_degree(done.defect))) +
-                 fraction_of_iterations * steps.convergence().left_after_first() * (missed + changed);
+    run.uncertainty = missed + math::largest(amplitude(propagator, propagator.effect_of_highest_degree(done.defect))) +
+                      fraction_of_iterations * steps.convergence().left_after_first() * (missed + changed);
     carry(run);
   }
 
@@ -86,14 +86,14 @@ class ErrorSpread {
     return squared;
   }
 
-  /// Carries the spread over the step and adds a ball of the amplitude `run.unsure`: the smallest ellipsoid, by its
-  /// trace, that contains their sum.
+  /// Carries the spread over the step and adds a ball of the amplitude `run.uncertainty`: the smallest ellipsoid, by
+  /// its trace, that contains their sum.
   SPRING_WORKBENCH_INLINE void carry(RunError& run) {
     Moments moments = transition_ * Moments(run.spread) * transition_.transpose();
     const double size = std::sqrt(std::max(0.0, mass_.dot(moments.diagonal().template head<n>())) /
                                   mass_.dot(ball_.diagonal().template head<n>()));
-    if (size > 0.0) moments *= 1.0 + run.unsure / size;
-    run.spread = moments + run.unsure * (run.unsure + size) * ball_;
+    if (size > 0.0) moments *= 1.0 + run.uncertainty / size;
+    run.spread = moments + run.uncertainty * (run.uncertainty + size) * ball_;
   }
 
   typename Propagator::Strain amplitude_rates_, mass_;

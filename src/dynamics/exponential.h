@@ -24,7 +24,7 @@ class Exponential final : public Integrator {
 
   int order() const override { return 5; }  // of a mode that the step does not resolve; otherwise more
   bool stiffly_stable() const override { return true; }
-  Energy energy() const override { return Energy::kept; }
+  Energy energy() const override { return Energy::conserved; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
   void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const StrainState& begin,

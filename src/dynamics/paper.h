@@ -21,7 +21,7 @@ class Paper final : public Integrator {
  public:
   int order() const override { return 1; }
   bool stiffly_stable() const override { return true; }
-  Energy energy() const override { return Energy::of_its_own; }
+  Energy energy() const override { return Energy::not_applicable; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;

@@ -67,7 +67,7 @@ FastrakLayout::FastrakLayout(const std::vector<int>& items, FastrakFormat format
   }
   if (!has_position || !has_orientation)
     throw validation::InputError("output list: must contain a position and an orientation");
-  if (length_ > kLongestRecord) throw validation::InputError("output list: must make records of at most 254 bytes");
+  if (length_ > kLongestRecord) throw validation::InputError("output list: the records must have at most 254 bytes");
 }
 
 std::optional<FastrakLayout::Numbers> FastrakLayout::read_numbers(const Item& item, std::string_view bytes) const {

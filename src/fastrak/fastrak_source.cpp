@@ -94,7 +94,7 @@ steady_clock::duration FastrakSource::time_allowed(double s) const {
 
 void FastrakSource::open() {
   port_ = std::make_unique<SerialPort>(settings_.port, settings_.baud);
-  problem_ = settings_.port + ": opened, asking the device";
+  problem_ = settings_.port + ": opened, asking the device for its status";
   begin_set_up();
 }
 
@@ -207,7 +207,7 @@ std::string FastrakSource::reason_for_silence() const {
     return where + "the device answers but sends no data: is a receiver plugged into each socket of `stations`?" + said;
   }
   if (!answered_)
-    return where + "silent" + at_baud + ": is the device on, its cable plugged in, its baud rate the same?";
+    return where + "silent" + at_baud + ": is the device on, is its cable plugged in, and is its baud rate the same?";
   if (!understood_)
     return where + "the data received" + at_baud +
            " is not a FASTRAK's: is the device set to this baud rate, 8 bits and no parity?";

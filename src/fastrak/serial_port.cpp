@@ -19,7 +19,7 @@ SerialPort::SerialPort(const std::string& path, int baud) : path_(path), port_(c
   port_.open(path, error);
   if (error == boost::system::errc::no_such_file_or_directory || error == boost::system::errc::no_such_device ||
       error == boost::system::errc::no_such_device_or_address) {
-    throw SerialError(path + ": no such port: is the device or its adaptor plugged in?");
+    throw SerialError(path + ": no such port: is the device or its adapter plugged in?");
   }
   if (error == boost::system::errc::permission_denied) {
     throw SerialError(path + ": no permission: your user must be in the group that owns the port (often dialout)");
@@ -75,7 +75,7 @@ void SerialPort::write(const std::string& bytes) {
     port_.cancel();
     context_.restart();
     while (!over && context_.run_one() > 0) continue;
-    throw SerialError(path_ + ": accepts no data");
+    throw SerialError(path_ + ": does not accept data");
   }
   if (failure) fail(failure);
 }

@@ -48,7 +48,7 @@ ForkAppearance appearance_of(const std::string& tool) {
     appearance.shaft = false;
   }
   const bool is_known = !(appearance == ForkAppearance()) || tool == "spring_fork";
-  if (!is_known) validation::refuse("look", "tool", tool, "spring, spring_fork, spring_probe, direct or ray");
+  if (!is_known) validation::refuse("fork", "tool", tool, "one of spring, spring_fork, spring_probe, direct, ray");
   return appearance;
 }
 

@@ -58,8 +58,8 @@ class GivenBack {
 
 }  // namespace
 
-void give_back(const std::vector<Eigen::MatrixXd>& responses, const std::vector<BouncingContact*>& contacts,
-               std::vector<Vector6d>& change) {
+void apply_restitution(const std::vector<Eigen::MatrixXd>& responses, const std::vector<BouncingContact*>& contacts,
+                       std::vector<Vector6d>& change) {
   GivenBack back(responses, contacts);
   for (int iteration = 0; iteration < bounce_iterations; ++iteration) {
     for (std::size_t i = 0; i < contacts.size(); ++i) back.slide(i, contacts[i]->motion + contacts[i]->by(change));

@@ -72,10 +72,10 @@ void Replayer::apply(const Change& change) {
                                  simulation::to_hex(change.hash_before));
   }
   if (change.state == simulation::SimulationState()) return;
-  const bool again = make_again(change);
+  const bool again = repeat(change);
   const simulation::SimulationState state = simulation_.front().save();
   const bool same = state == change.state;
-  ++(again || same ? changes_.made_again : changes_.given);
+  ++(again || same ? changes_.repeated : changes_.restored);
   if (same) return;
   if (again) {
     changes_.mismatches.push_back(change.what + " at " + std::to_string(simulation_.front().time()) + " s: state " +
@@ -89,7 +89,7 @@ void Replayer::apply(const Change& change) {
 
 /// Repeats a change. Returns false if that is impossible: an undone edit may be from before the journal, and a change
 /// that failed in the live run fails again.
-bool Replayer::make_again(const Change& change) {
+bool Replayer::repeat(const Change& change) {
   simulation::Simulation& simulation = simulation_.front();
   const Command::Kind kind = change.command.kind;
   if (kind == Command::Kind::none || (kind == Command::Kind::undo && undo_.empty())) return false;

@@ -20,7 +20,7 @@ void LookAhead::show(const simulation::Simulation& committed, const hand_input::
 double LookAhead::show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
                               const Pace& pace) {
   const double newest = committed.newest_sample();
-  if (is_there_ && horizon == 0.0) return std::max(copy_.time() - newest, 0.0);
+  if (up_to_date_ && horizon == 0.0) return std::max(copy_.time() - newest, 0.0);
   double t = committed.time();
   if (feed.has_sample()) {
     const double ahead = std::max(newest + horizon, shown_until_);
@@ -29,12 +29,12 @@ double LookAhead::show_newest(const simulation::Simulation& committed, const han
     shown_until_ = t;
   }
   show(committed, feed, t);
-  is_there_ = horizon == 0.0;
+  up_to_date_ = horizon == 0.0;
   return std::max(t - newest, 0.0);
 }
 
 PredictionError LookAhead::compare(const simulation::Simulation& committed) {
-  is_there_ = false;
+  up_to_date_ = false;
   const std::vector<Held> now = held_in_committed_.of(committed);
   PredictionError worst;
   while (!shown_.empty() && shown_.front().at.t <= committed.time()) {
@@ -67,7 +67,7 @@ double LookAhead::position_error_99() const {
 }
 
 void LookAhead::restart() {
-  has_followed_ = is_there_ = false;
+  has_followed_ = up_to_date_ = false;
   shown_.clear();
   before_.clear();
 }

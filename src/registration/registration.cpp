@@ -86,7 +86,7 @@ void check_fit(const std::vector<Landmark>& landmarks, const Registration& resul
     validation::refuse(
         kWhere, "landmarks",
         "ones that also fit in the order " + in_order(landmarks, other->second) + ", to " + millimetres(other->first),
-        "placed so that the touches fit in only one order");
+        "placed such that the touches fit in only one order");
   }
 }
 

@@ -163,7 +163,7 @@ void DrivenSolver::solve(std::vector<Contact>& contacts, bool impact, std::vecto
   for (std::size_t i = 0; i < change.size(); ++i) responses.push_back(response(i, impact));
   for (Contact& c : contacts) c.motion += c.by(before);
   for (std::size_t i = 0; i < change.size(); ++i) change[i] -= before[i];
-  give_back(responses, bouncing(contacts), change);
+  apply_restitution(responses, bouncing(contacts), change);
   for (std::size_t i = 0; i < change.size(); ++i) change[i] += before[i];
   solve_once(contacts, impact, false, change);
 }

@@ -19,7 +19,8 @@ using rviz::StatusProperty;
 ForkDisplay::ForkDisplay() {
   topic_ = new rviz::RosTopicProperty(
       "Topic", "manipulation/display/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
-      "~display/fork of manipulation; the forks of further styluses are drawn, too.", this, SLOT(subscribe()), this);
+      "Topic ~display/fork of manipulation; the forks of further styluses are drawn, too.", this, SLOT(subscribe()),
+      this);
 }
 
 void ForkDisplay::setTopic(const QString& topic, const QString&) { topic_->setString(topic); }

@@ -28,8 +28,8 @@ RigidTransform pose_of(const geometry_msgs::Transform& message) {
 HeadViewController::HeadViewController() {
   frame_ =
       new rviz::TfFrameProperty("Head Frame", "head", "The camera looks along its x axis; its z axis is up.", this);
-  latency_ =
-      new rviz::FloatProperty("Latency", 0.0F, "Of projector and rviz [s]: the head is predicted that far.", this);
+  latency_ = new rviz::FloatProperty(
+      "Latency", 0.0F, "Delay of projector and rviz [s]: the head's pose is predicted this far ahead.", this);
   latency_->setMin(0.0F);
   latency_->setMax(static_cast<float>(motion::PosePredictor::farthest));
 }

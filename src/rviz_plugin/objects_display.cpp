@@ -20,13 +20,13 @@ namespace spring_workbench::rviz_plugin {
 using rviz::StatusProperty;
 
 ObjectsDisplay::ObjectsDisplay() {
-  topic_ = new rviz::RosTopicProperty("Topic", "manipulation/display/objects",
-                                      QString::fromStdString(ros::message_traits::datatype<ObjectStates>()),
-                                      "Poses, ~display/objects of manipulation.", this, SLOT(subscribe()), this);
-  scene_topic_ =
-      new rviz::RosTopicProperty("Scene Topic", "manipulation/scene_description",
-                                 QString::fromStdString(ros::message_traits::datatype<SceneDescription>()),
-                                 "Shapes, ~scene_description of manipulation.", this, SLOT(subscribe()), this);
+  topic_ = new rviz::RosTopicProperty(
+      "Topic", "manipulation/display/objects", QString::fromStdString(ros::message_traits::datatype<ObjectStates>()),
+      "Topic ~display/objects of manipulation: the poses.", this, SLOT(subscribe()), this);
+  scene_topic_ = new rviz::RosTopicProperty("Scene Topic", "manipulation/scene_description",
+                                            QString::fromStdString(ros::message_traits::datatype<SceneDescription>()),
+                                            "Topic ~scene_description of manipulation: the shapes.", this,
+                                            SLOT(subscribe()), this);
 }
 
 void ObjectsDisplay::onInitialize() {
@@ -86,7 +86,7 @@ void ObjectsDisplay::describe() {
   try {
     objects_->describe(scene);
     builds_ = scene->name;
-    setStatus(StatusProperty::Warn, "Scene", "Building its shapes");
+    setStatus(StatusProperty::Warn, "Scene", "Building the shapes");
   } catch (const validation::InputError& error) {
     setStatusStd(StatusProperty::Error, "Scene", error.what());
   }

@@ -33,7 +33,7 @@ void StepFigures::clear() {
 void StepFigures::refresh(double now) {
   plot_->refresh(now);
   if (!steps_) {
-    figures_->setText("no figures");
+    figures_->setText("no data");
     skipped_->clear();
     return;
   }

@@ -153,7 +153,7 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     std_srvs::SetBool::Request request;
     request.data = on ? 1 : 0;
     free_at_ = panel_time() + settling;
-    services_.call<std_srvs::SetBool>("grasp", node_.beside("tracker_driver/grasp"), request);
+    services_.call<std_srvs::SetBool>("grasp", node_.in_namespace("tracker_driver/grasp"), request);
   });
   auto* clutch = new QCheckBox("Clutch", this);
   clutch->setToolTip("on: the hand moves without its tool");
@@ -201,7 +201,7 @@ void WorkbenchPanel::subscribe() {
   subscriptions_.add<ForkState>(handle, node_.of_node("fork"), 1, [this](const auto& message) { on_fork(message); });
   subscriptions_.add<StepReport>(handle, node_.of_node("steps"), 200,
                                  [this](const auto& message) { figures_->add(panel_time(), message); });
-  subscriptions_.add<sensor_msgs::Joy>(handle, node_.beside("stylus/joy"), 1,
+  subscriptions_.add<sensor_msgs::Joy>(handle, node_.in_namespace("stylus/joy"), 1,
                                        [this](const auto& message) { on_joy(message); });
   node_field_->setText(QString::fromStdString(node_.text()));
   fork_received_ = -1e9;

@@ -46,7 +46,7 @@ PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples) {
     }
     if (samples_.empty() || sample.t > samples_.back().t) samples_.push_back(sample);
   }
-  if (samples_.empty()) throw validation::InputError("motion: must be at least one sample, got none");
+  if (samples_.empty()) throw validation::InputError("motion: no samples; give at least one");
 }
 
 motion::StylusSample PlayedMotion::at(double t) const {

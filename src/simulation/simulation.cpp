@@ -518,7 +518,7 @@ ChangeReport Simulation::select_tool(tools::Tool tool, std::optional<std::size_t
   });
   change.elastic_energy_after = impl_->elastic_energy();
   change.message = "tool: " + validation::name_of(tool) +
-                   (held && !tools::can_hold(tool) ? "; it cannot hold, so the object was released" : "");
+                   (held && !tools::can_hold(tool) ? "; it cannot hold an object, so the object was released" : "");
   return change;
 }
 

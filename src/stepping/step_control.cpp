@@ -195,7 +195,7 @@ void StepControl::follow_error(Span& span, double t, double h, const Tried& trie
     integrator_->follow(body, run);
     exact = {tried.state.q - run.estimate.q, tried.state.q_dot - run.estimate.q_dot};
     const double directions = std::min<double>(3.0, static_cast<double>(body.size()));
-    local = tried.position_error + local_margin * run.unsure * std::sqrt(directions / body.body().mass);
+    local = tried.position_error + local_margin * run.uncertainty * std::sqrt(directions / body.body().mass);
   }
   memory.spread = run.spread;
   // Of the motion itself, a stop and another chart are not followed.
@@ -243,7 +243,7 @@ bool StepControl::step_in_halves(Span& span, double t, double h, int level, bool
   const double saved = span.memory.energy_saved, credit = last ? saved + energy_reserve : std::max(saved, 0.0);
   const double share = energy_drift_rate * (h + credit) * energy;
   const auto fine = [&] {
-    if (integrator_->energy() == dynamics::Integrator::Energy::kept) return tried.energy_error <= share;
+    if (integrator_->energy() == dynamics::Integrator::Energy::conserved) return tried.energy_error <= share;
     return integrator_->energy() != dynamics::Integrator::Energy::dissipated ||
            energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state) <= share;
   };

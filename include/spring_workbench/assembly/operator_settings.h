@@ -4,7 +4,7 @@ namespace spring_workbench::assembly {
 
 /// How the simulated operator moves. The defaults are rounded values for human reaching from the literature.
 struct OperatorSettings {
-  unsigned seed = 1;             ///< of all random numbers
+  unsigned seed = 1;             ///< seed of all random numbers
   double rate = 50.0;            ///< samples per second [Hz], 1 … 1000
   double reaction = 0.2;         ///< delay with which the operator perceives the scene [s], 0 … 2
   double position_noise = 1e-4;  ///< tracker noise: standard deviation per axis and sample [m], 0 … 0.1

@@ -39,7 +39,7 @@ class TaskMonitor {
   };
   /// State of an object that one or more hands hold.
   struct Carried {
-    Vector3d p = Vector3d::Zero();             ///< at the last call
+    Vector3d p = Vector3d::Zero();             ///< position at the last call [m]
     double since = 0.0;                        ///< [s]
     std::map<std::string, double> last_touch;  ///< time of the last contact, by the other body's name [s]
   };

@@ -15,16 +15,17 @@ struct ContactPoint {
   std::size_t other = 0;             ///< index of the other body in the scene, or `CollisionWorld::bench`
   Vector3d p_W = Vector3d::Zero();   ///< on the surface of the other body, in world [m]
   Vector3d n_W = Vector3d::UnitZ();  ///< unit normal, from the other body towards this one
-  double depth = 0.0;                ///< how far this body is in the other along `n_W` [m]; > 0 is penetration
+  double depth = 0.0;                ///< depth of this body in the other along `n_W` [m]; > 0 is penetration
 };
 
-/// How deep a body may be in others before it touches them [m]: in all of them, except for those that yield.
+/// Depth up to which a body may penetrate others without counting as touching them [m]: one depth for all of them,
+/// except for those that yield.
 class Tolerance {
  public:
   Tolerance(double depth) : depth_(depth) {}  // NOLINT(google-explicit-constructor): usually one number for all
-  /// Sets another depth for one of them, by its index.
+  /// Sets a separate depth for one body, by its index.
   void set(std::size_t other, double depth) { of_.emplace_back(other, depth); }
-  /// Raises the depth for all bodies that have none of their own to at least this one.
+  /// Raises the depth for all bodies without a separate depth to at least this one.
   void raise(double depth) { depth_ = std::max(depth_, depth); }
   double depth() const { return depth_; }  ///< in all that have no depth of their own
   double in(std::size_t other) const {

@@ -88,7 +88,7 @@ class ContactStepper {
   const scene::Scene& scene_;
   collision::CollisionWorld& collision_;
   int levels_;
-  std::vector<double> radius_;  ///< of every body of the scene [m]
+  std::vector<double> radius_;  ///< radius of every body of the scene [m]
   // Members so that a step allocates little.
   mutable bodies::TrialStart start_;  ///< start of the present trial
   mutable friction::ContactProblem problem_;

@@ -20,7 +20,7 @@ class DynamicStepper {
 
   struct Outcome {
     int substeps = 0;
-    int unsolved = 0;        ///< of them, taken although a contact violated its law or a free body's path was not clear
+    int unsolved = 0;        ///< substeps taken although a contact violated its law or a free body's path was not clear
     double time_lost = 0.0;  ///< time [s] during which a held body was blocked, because contact admitted no motion or
                              ///< because its result was not finite or bounded
     bool refused = false;    ///< the result of a substep without contact was not finite or bounded
@@ -81,7 +81,7 @@ class DynamicStepper {
   std::unique_ptr<rigid_bodies::RigidWorld> world_;
   std::vector<rigid_bodies::WorldContact> contacts_;
   std::vector<std::size_t> held_;         ///< indices in the scene of the bodies held in the last step
-  std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last substep
+  std::map<std::size_t, Wrench> load_W_;  ///< contact loads on held bodies in the last substep
   double min_substep_ = 0.0;              ///< [s] of the present step
 };
 

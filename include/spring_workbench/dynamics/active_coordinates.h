@@ -23,9 +23,9 @@ class ActiveCoordinates {
   /// Starts with all `count` coordinates active, 1 … max_strain_coordinates.
   explicit ActiveCoordinates(int count);
 
-  int count() const { return count_; }  ///< of the shape model
-  int size() const { return size_; }    ///< active ones
-  /// Coordinate of the shape model that is the `i`-th active one.
+  int count() const { return count_; }  ///< number of coordinates of the shape model
+  int size() const { return size_; }    ///< number of active coordinates
+  /// Returns the coordinate of the shape model that is the `i`-th active one.
   int operator[](int i) const { return active_[static_cast<std::size_t>(i)]; }
   bool returning() const { return returning_ > 0; }
 

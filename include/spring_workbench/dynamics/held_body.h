@@ -27,8 +27,8 @@ struct HandleForcing {
   Vector3d v_WH_W = Vector3d::Zero();            ///< [m/s], world axes
   Vector3d angular_velocity = Vector3d::Zero();  ///< [rad/s]
   Vector3d angular_acceleration = Vector3d::Zero();
-  Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< of the origin of H [m/s²]
-  Couplings::RelativeMotions<double> seen;                ///< of H relative to the frames of the couplings
+  Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< acceleration of the origin of H, less gravity [m/s²]
+  Couplings::RelativeMotions<double> seen;                ///< motions of H relative to the frames of the couplings
 };
 
 /// Motion of the handle without its pose, at one moment (`S` double) or several.
@@ -37,7 +37,7 @@ template <typename S>
 struct ForcingOf {
   S t;
   motion::FrameForcing<S> of_H;
-  Couplings::RelativeMotions<S> seen;  ///< of H relative to the frames of the couplings
+  Couplings::RelativeMotions<S> seen;  ///< motions of H relative to the frames of the couplings
 };
 
 /// Motion of the handle at several moments, for integrators.
@@ -71,14 +71,14 @@ class HeldBody {
   /// Increases with every change of the external wrench, which does not change the linear part of the equations.
   long load_version() const { return load_version_; }
 
-  /// Stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per DOF.
+  /// Sets stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per DOF.
   void set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio);
-  /// Damping coefficients per DOF, in the unit of its stiffness times s: `D = (c / k) K`.
+  /// Sets stiffness and damping coefficients per DOF, the latter in the unit of the stiffness times s: `D = (c / k) K`.
   void set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping);
-  /// The same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, M that of
-  /// the unstrained fork. It is recomputed by set_dofs().
+  /// Sets the same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, with
+  /// the mass matrix M of the unstrained fork. D is recomputed by set_dofs().
   void set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio);
-  /// Stiffness, damping ratios and damping law of `fork`.
+  /// Sets stiffness, damping ratios and damping law as in `fork`.
   void set_springs(const rod::ForkSettings& fork);
   /// Returns the body's moment of inertia about the fork's axis, which passes through the tip [kg·m²].
   double axial_inertia() const;
@@ -201,7 +201,7 @@ class HeldBody {
   /// Returns the coefficients of the DOFs' dampers for these damping ratios.
   rod::PerDof damping_of(const rod::PerDof& stiffness, const rod::PerDof& ratio) const;
   void changed();
-  void set_modal_damping();  ///< of the active coordinates
+  void set_modal_damping();  ///< for the active coordinates
 
   std::shared_ptr<const rod::ShapeModel> shape_;
   BodyInertia body_;
@@ -210,7 +210,7 @@ class HeldBody {
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
-  rod::PerDof stiffness_, damping_;  ///< of the DOFs
+  rod::PerDof stiffness_, damping_;  ///< values per DOF
   rod::StrainVector K_, D_;          ///< all coordinates; with modal damping D_ is zero
   bool modal_ = false;
   double modal_ratio_ = 0.0;

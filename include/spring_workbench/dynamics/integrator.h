@@ -26,7 +26,7 @@ struct RunError {
   /// Ellipsoid about the estimate that contains the error: e = (strain, rate) of the error minus the estimate fulfils
   /// eᵀ spread⁻¹ e ≤ 1. Positive semi-definite.
   Moments spread;
-  double unsure = 0.0;  ///< largest difference of the last step's error from its estimate, as an amplitude [m √kg]
+  double uncertainty = 0.0;  ///< largest difference of the last step's error from its estimate, as an amplitude [m √kg]
 };
 
 /// Integrates the held body's equation of motion over a step (doc/model.md, "Integrators"). An integrator may keep what
@@ -40,14 +40,14 @@ class Integrator {
   virtual int order() const = 0;
   /// Whether the step is stable at any stiffness.
   virtual bool stiffly_stable() const { return false; }
-  /// Effect of the method on the energy of a motion: kept up to its error; partly dissipated (implicit methods of low
-  /// order); unbounded (explicit methods); or of its own, if the method relaxes to a target instead of solving the
-  /// equation of motion. StepControl bounds the first by its error and the second by its balance; the error estimates
-  /// of the last are of the distance from the method's own limit.
-  enum class Energy { kept, dissipated, unbounded, of_its_own };
+  /// Effect of the method on the energy of a motion: conserved up to its error; partly dissipated (implicit methods of
+  /// low order); unbounded (explicit methods); or not applicable, if the method relaxes to a target instead of solving
+  /// the equation of motion. StepControl bounds the energy error of the first and the energy gain of the second. The
+  /// error estimates of the last refer to the method's own limit for short steps.
+  enum class Energy { conserved, dissipated, unbounded, not_applicable };
   virtual Energy energy() const { return Energy::unbounded; }
   /// Whether short steps lead to the equation of motion.
-  bool solves_the_equation_of_motion() const { return energy() != Energy::of_its_own; }
+  bool solves_the_equation_of_motion() const { return energy() != Energy::not_applicable; }
 
   /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
   virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
@@ -58,7 +58,7 @@ class Integrator {
   virtual void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                      const StrainState& begin, const StrainState& end, StrainState& deviation);
 
-  /// Whether the method has an interpolant whose defect it samples, so that it can follow the error of a run.
+  /// Whether the method has an interpolant whose defect it samples, so that it can track the error of a run.
   virtual bool follows_errors() const { return false; }
   /// Propagates the run's error over the last step, and adds that step's own error.
   virtual void follow(const HeldBody&, RunError&) {}
@@ -79,7 +79,8 @@ class Integrator {
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind);
 
-/// Swaps two integrators if both are of one class that restores all, so that either can go on as the other.
+/// Swaps two integrators if both are of the same class and that class restores all, so that each can take the other's
+/// place.
 void swap_alike(std::unique_ptr<Integrator>& a, std::unique_ptr<Integrator>& b);
 
 /// Registers an integrator of your own under `name`: from then on settings files, parameters, services and

@@ -20,7 +20,7 @@ class AndersonMixer {
   };
 
   void restart() { count_ = 0; }
-  /// Begins the next iteration. Returns its x, for the caller to set.
+  /// Begins the next iteration. Returns its x, which the caller has to set.
   Point& next() { return images_[++count_ % 3].x; }
   /// Computes the change of this iteration, which began at `from`. Returns its squared size, over all lanes; one
   /// `squared_weight` per pack.

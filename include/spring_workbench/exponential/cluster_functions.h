@@ -34,9 +34,9 @@ struct ClusterFunction {
   }
 };
 
-/// φ₀ … φ_highest of a matrix (phi_functions.h): the series where its norm is below 1, then as many doublings as
-/// needed, φ_l(2z) = 2⁻ˡ (φ₀(z) φ_l(z) + Σ_{j=1…l} φ_j(z) / (l−j)!) (Skaflestad and Wright, Applied Numerical
-/// Mathematics 59, 2009). The eigenvalues of a cluster are of similar size, so that doubling costs no digits.
+/// φ₀ … φ_highest of a matrix (phi_functions.h): by the series after scaling to a norm below 1, then by as many
+/// doublings as needed, φ_l(2z) = 2⁻ˡ (φ₀(z) φ_l(z) + Σ_{j=1…l} φ_j(z) / (l−j)!) (Skaflestad and Wright, Applied
+/// Numerical Mathematics 59, 2009). The eigenvalues of a cluster are of similar size, so that doubling costs no digits.
 template <std::size_t highest>
 std::array<ClusterFunction, highest + 1> phi_functions(ClusterFunction z) {
   constexpr int terms = 15;

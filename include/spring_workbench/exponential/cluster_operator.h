@@ -9,10 +9,10 @@ namespace spring_workbench::exponential {
 /// Four functions of the clusters of ModalRates, one in each lane, as a matrix.
 class ClusterOperator {
  public:
-  /// Of all clustered modes; 0, as in most motions: there are none.
+  /// Number of modes in clusters; 0 in most motions.
   int size() const { return size_; }
   void set_zero(int size);
-  /// Sets a block that begins at element (`first`, `first`); `block` may be empty, which is zero.
+  /// Sets the block that begins at element (`first`, `first`); an empty `block` is zero.
   void set(std::size_t lane, int first, const ModalRates::Matrix& block);
   /// Adds the functions, each applied to its lane of `x`, to `y`.
   void add_applied(const math::Pack* x, math::Pack* y) const;

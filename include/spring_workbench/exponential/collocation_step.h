@@ -14,7 +14,7 @@ namespace spring_workbench::exponential {
 /// `Equation` is the equation of motion q̈ = f(input, t, q, q̇):
 /// - `Forcing forcing(input, Pack t)`: what f depends on besides q and q̇, which may jump from step to step;
 /// - `acceleration(forcing, q, q_dot, q_ddot)` in packs, and `Strain acceleration(input, t, q, q_dot)`;
-/// - `NodeStrains by_forcing(forcing, modes)`: the acceleration by the forcing alone, to first order;
+/// - `NodeStrains by_forcing(forcing, modes)`: the acceleration due to the forcing alone, to first order;
 /// - `double squared_rounding(forcing, modes, h, q, q_dot)`: squared size of the rounding errors of a state;
 /// - `Strain cancelling(part, q, q_dot)`: upper bound of the terms that cancel in the acceleration;
 /// - `ModalDecomposition`: see LinearPart.
@@ -29,13 +29,13 @@ class CollocationStep {
   using NodeModes = typename Propagator::NodeModes;
   using NodeStrains = typename Propagator::NodeStrains;
 
-  /// The last step. It has no effect on the next.
+  /// Intermediate results of the last step. They have no effect on the next one.
   struct Done {
-    Forcing forcing;         ///< at the nodes
-    Strain q0, q_dot0;       ///< at the start
-    NodeStrains residual{};  ///< at the nodes
-    NodeModes x{};           ///< at the nodes
-    NodeModes defect{};      ///< of the residual at the samples, in modes
+    Forcing forcing;         ///< forcing at the nodes
+    Strain q0, q_dot0;       ///< strain and rate at the start
+    NodeStrains residual{};  ///< residual at the nodes
+    NodeModes x{};           ///< modes at the nodes
+    NodeModes defect{};      ///< defect of the residual at the samples, in modes
   };
   const Done& done() const { return done_; }
 

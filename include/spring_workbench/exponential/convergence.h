@@ -67,10 +67,11 @@ class Convergence {
   /// After this many iterations, one that leaves more than slow_rate of the last change ends the step.
   static constexpr int iterations_to_judge = 5;
   static constexpr double slow_rate = 0.7;
-  /// Assumed from one step to the next, until a step with two iterations tells: the rate is lowest at the linear part.
-  /// Not derived. Without growth a stale rate ends steps too early (Convergence.DoesNotRelyOnTheRateOfAnOldStep); with
-  /// 1e9, which is no rate at all, the default fork, the reference trajectories and the error bounds are as with 1.3,
-  /// but a step where load and springs cancel is halved (StepControl.GoesOnInWholeStepsWhereALoadAndTheSpringsCancel).
+  /// Factor by which the rate is assumed to grow from one step to the next, until a step with two iterations measures
+  /// it: the rate is lowest at the linear part. An empirical value. Without growth, an old rate ends steps too early
+  /// (Convergence.DoesNotRelyOnTheRateOfAnOldStep); with 1e9, which amounts to no rate at all, the default fork, the
+  /// reference trajectories and the error bounds are as with 1.3, but a step in which load and springs cancel is halved
+  /// (StepControl.GoesOnInWholeStepsWhereALoadAndTheSpringsCancel).
   static constexpr double rate_growth = 1.3;
   static constexpr double left_at_unknown = 1e3;  ///< left() at an unknown rate, or without convergence
 
@@ -79,7 +80,7 @@ class Convergence {
     return squared_left_ <= std::max(fraction * fraction * squared_error_, squared_rounding_);
   }
 
-  double rate_ = 1.0;           ///< from the first to the second iteration; in a step with only one: assumed
+  double rate_ = 1.0;           ///< from the first to the second iteration; assumed if a step has only one
   double squared_error_ = 0.0;  ///< collocation error of the last step
   // Of the present step.
   int iterations_ = 0;

@@ -44,10 +44,10 @@ class ExponentialCollocation {
     norm_.set(h_, modes().rates);
     operators_.compute(h_, modes().rates);
   }
-  /// Changes whenever the operators do; what has been derived from them is valid for one value.
+  /// Changes whenever the operators do; what is derived from them is valid for one value only.
   long revision() const { return revision_; }
 
-  /// Of the modes, over the step.
+  /// Returns the norm of modes over the step.
   const ModeNorm<2 * n>& norm() const { return norm_; }
   SPRING_WORKBENCH_INLINE static Modes at_end(const NodeModes& x) {
     Modes end;
@@ -61,11 +61,11 @@ class ExponentialCollocation {
     nodes = operators_.constant.applied(rate);
     samples = operators_.sample_constant.applied(rate);
   }
-  /// Modes at the nodes under the collocation polynomial of a residual, in modes; `from` begin().
+  /// Modes at the nodes under the collocation polynomial of a residual, in modes; `from`: the result of begin().
   SPRING_WORKBENCH_INLINE void drive(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
     Operators::drive(operators_.node, from, residual, x);
   }
-  /// The same at the samples.
+  /// Modes at the samples under the same polynomial.
   SPRING_WORKBENCH_INLINE void drive_samples(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
     Operators::drive(operators_.sample, from, residual, x);
   }
@@ -77,14 +77,14 @@ class ExponentialCollocation {
     for (int m = 0; m < 2 * n; ++m) e[m] = math::sum(by_samples[at(m)]);
     return e;
   }
-  /// The same on the modes at the nodes.
+  /// Effect of such a defect on the modes at the nodes.
   SPRING_WORKBENCH_INLINE NodeModes effect(const NodeModes& defect) const {
     NodeModes e;
     Operators::drive(operators_.defect, NodeModes{}, defect, e);
     return e;
   }
-  /// Effect of the highest degree of a defect on the modes at the end; lane k: if the defect at sample k causes all of
-  /// it. One more sample could change the defect by about as much.
+  /// Effect of the highest degree of a defect on the modes at the end; in lane k, if the defect at sample k causes all
+  /// of it. One more sample could change the defect by about as much.
   SPRING_WORKBENCH_INLINE NodeModes effect_of_highest_degree(const NodeModes& defect) const {
     const auto& row = Collocation::third_degree();
     const math::Pack third{row[0], row[1], row[2], row[3]};
@@ -99,11 +99,11 @@ class ExponentialCollocation {
     for (int m = 0; m < 2 * n; ++m) y[at(m)] += x[m];
     return y;
   }
-  /// The same of strain and rate, to the end.
+  /// Carries a small deviation of strain and rate to the end of the step.
   Modes carried(const Modes& deviation) const {
     return part_.deviation(at_end(carried_in_modes(part_.deviation_in_modes(deviation))));
   }
-  /// Strain and rate at the end of the step by constant accelerations, one per column.
+  /// Strain and rate at the end of the step under constant accelerations, one per column.
   Eigen::Matrix<double, 2 * n, n> response(const Square& acceleration) const {
     const Eigen::Matrix<double, 2 * n, n> force = part_.in_modes(acceleration);
     Eigen::Matrix<double, 2 * n, n> x;
@@ -111,7 +111,7 @@ class ExponentialCollocation {
     return part_.deviation(x);
   }
 
-  /// Exchanges linear part and step; the operators follow from them, when they are needed.
+  /// Exchanges linear part and step; the operators are recomputed from them when they are needed.
   void exchange(math::StateArchive& state) {
     state(part_, h_);
     if (state.sets()) known_ = false;
@@ -123,7 +123,7 @@ class ExponentialCollocation {
   static constexpr double same_length = 1e-11;
 
   Part part_;
-  double h_ = 0.0;      ///< the step that the operators are for [s]; 0: none
+  double h_ = 0.0;      ///< step for which the operators were computed [s]; 0: none
   bool known_ = false;  ///< whether they have been computed
   long revision_ = 0;
   ModeNorm<2 * n> norm_;

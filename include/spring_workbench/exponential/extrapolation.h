@@ -25,8 +25,8 @@ class Extrapolation {
   void clear() { t_begin_ = std::numeric_limits<double>::quiet_NaN(); }
   bool empty() const { return std::isnan(t_begin_); }
 
-  /// Computes the values over a step of `h` from `t` [s]. That may follow the last one, or repeat it with another
-  /// length. Returns false, and no values, if the step begins earlier or reaches too far.
+  /// Computes the values over a step of `h` from `t` [s], which may follow the last step or repeat it with another
+  /// length. Returns false, without values, if the step begins before the last one or extends too far beyond it.
   SPRING_WORKBENCH_INLINE bool extrapolate(double t, double h, NodeValues& values) const {
     const double begin = (t - t_begin_) / h_, length = h / h_;  // in units of the last step
     if (!(begin > -same_time && begin + length < 1.0 + farthest)) return false;

@@ -40,13 +40,13 @@ class LinearPart {
     }
   }
 
-  /// The derivative of the modes by the rate q̇₀.
+  /// Time derivative of the modes due to the rate q̇₀.
   SPRING_WORKBENCH_INLINE Modes rate_in_modes(const Strain& q_dot) const {
     Modes rate = to_modes_.col(0) * q_dot[0];
     for (int i = 1; i < n; ++i) rate += to_modes_.col(i) * q_dot[i];
     return rate;
   }
-  /// The derivative of the modes by residuals, one in each lane.
+  /// Time derivative of the modes due to residuals, one in each lane.
   SPRING_WORKBENCH_INLINE NodeModes in_modes(const NodeStrains& residual) const {
     NodeModes r;
     for (int m = 0; m < 2 * n; ++m) {
@@ -55,17 +55,17 @@ class LinearPart {
     }
     return r;
   }
-  /// The same by accelerations, one in each column.
+  /// Time derivative of the modes due to accelerations, one in each column.
   Eigen::Matrix<double, 2 * n, n> in_modes(const Square& acceleration) const {
     return to_modes_.template rightCols<n>() * acceleration;
   }
-  /// Upper bound of the same for accelerations of this size.
+  /// Upper bound of that derivative for accelerations of this size.
   Modes bound_in_modes(const Strain& acceleration) const {
     return to_modes_.template rightCols<n>().cwiseAbs() * acceleration;
   }
   Modes deviation_in_modes(const Modes& deviation) const { return to_modes_ * deviation; }
 
-  /// Strain and rate of modes, one in each lane, as deviations from the start.
+  /// Strain and rate of the modes in each lane, as deviations from the start.
   SPRING_WORKBENCH_INLINE void deviation(const NodeModes& x, NodeStrains& q, NodeStrains& q_dot) const {
     for (int i = 0; i < n; ++i) {
       q[at(i)] = from_modes_(i, 0) * x[0];
@@ -76,7 +76,7 @@ class LinearPart {
       }
     }
   }
-  /// The same of modes in each column.
+  /// Strain and rate of the modes in each column.
   template <typename Columns>
   Eigen::Matrix<double, 2 * n, Columns::ColsAtCompileTime> deviation(const Eigen::MatrixBase<Columns>& x) const {
     return from_modes_ * x;

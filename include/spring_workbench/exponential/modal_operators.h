@@ -20,7 +20,7 @@ struct ModalOperator {
   Packs own{}, other{};  ///< zero for the modes of clusters
   ClusterOperator clusters;
 
-  /// The functions, each applied to its lane of `x`, or all to the same modes.
+  /// Applies each function to its lane of `x`, or all functions to the same modes.
   template <typename Modes>
   SPRING_WORKBENCH_INLINE Packs applied(const Modes& x) const {
     Packs y;
@@ -62,12 +62,14 @@ struct ModalOperators {
   using Packs = typename Operator::Packs;
   using PerNode = std::array<Operator, count>;
 
-  Operator constant, sample_constant;  ///< of a constant derivative: at the nodes, at the samples
-  PerNode node, sample;                ///< of the residual at each node: at the nodes, at the samples
+  // Effects on the modes:
+  Operator constant, sample_constant;  ///< of a constant derivative, at the nodes and at the samples
+  PerNode node, sample;                ///< of the residual at each node, at the nodes and at the samples
   PerNode defect;                      ///< of the residual's defect at each sample, at the nodes
-  Operator end_defect;                 ///< of the defect at the sample of each lane, at the end
+  Operator end_defect;                 ///< of the defect at the sample of each lane, at the end of the step
 
-  /// Computes all for steps of `h` [s], unless they are known: a restored history usually continues with the same step.
+  /// Computes all for steps of `h` [s], unless they are known already: a restored history usually continues with the
+  /// same step.
   void compute(double h, const ModalRates& rates) {
     if (h == h_ && rates == rates_) return;
     h_ = h;

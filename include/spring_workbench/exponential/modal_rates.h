@@ -16,10 +16,10 @@ struct ModalRates {
 
   int pairs = 0;  ///< the first 2 `pairs` modes; a pair of the rate a + b j: ẋ₀ = a x₀ + b x₁, ẋ₁ = a x₁ + j² b x₀
   int singles = 0;  ///< modes after them: ẋ = rate x
-  /// Of each pair (twice), of each single mode, and of a cluster the eigenvalues of its matrix [1/s].
+  /// Rates: of each pair (twice), of each single mode, and the eigenvalues of each cluster's matrix [1/s].
   std::array<GeneralComplex, max_modes> of;
-  Matrix clusters;  ///< of the modes that are left: one matrix after the other on its diagonal
-  std::array<int, max_modes / 3> cluster_sizes{};  ///< at least 3; 0: no more
+  Matrix clusters;  ///< of the remaining modes: the clusters' matrices, along the diagonal
+  std::array<int, max_modes / 3> cluster_sizes{};  ///< each at least 3; 0: no further cluster
 
   int unclustered() const { return 2 * pairs + singles; }
   int count() const { return unclustered() + static_cast<int>(clusters.rows()); }

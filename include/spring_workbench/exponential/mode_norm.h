@@ -6,25 +6,25 @@
 
 namespace spring_workbench::exponential {
 
-/// The size of `count` modes over a step, in which the iteration and its errors are judged: displacements have the
-/// weight 1, rates the time in which they act, which is the step or, if that is shorter, the time 1/|rate| of their
-/// mode.
+/// Norm of `count` modes over a step, by which the iteration and its errors are judged. Displacements have the
+/// weight 1. Rates are weighted by the time in which they act: the step or, if that is shorter, the time 1/|rate| of
+/// their mode.
 template <int count>
 class ModeNorm {
  public:
   using Modes = Eigen::Matrix<double, count, 1>;
 
-  /// For steps of `h` [s].
+  /// Sets the weights for steps of `h` [s].
   void set(double h, const ModalRates& rates) {
     for (int m = 0; m < count; ++m) {
       const double weight = 1.0 / std::max(1.0 / h, rates.size(m));
       squared_weight_[m] = weight * weight;
     }
   }
-  /// One per mode.
+  /// Squared weights, one per mode.
   const Modes& squared_weight() const { return squared_weight_; }
   SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
-  /// Upper bound of the squared size of the change over a step by derivatives of this size.
+  /// Upper bound of the squared size of the change over a step due to derivatives of this size.
   double squared_effect(const Modes& derivatives) const {
     return squared_size(derivatives.cwiseProduct(squared_weight_.cwiseSqrt()));
   }

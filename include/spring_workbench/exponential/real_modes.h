@@ -9,7 +9,7 @@ namespace spring_workbench::exponential {
 /// columns becoming nearly parallel to those of the others:
 /// - pairs: two conjugate rates, or two real ones that may coincide (OscillatorModes);
 /// - single real rates;
-/// - clusters of three and more rates that are so close that their eigenvectors are nearly parallel.
+/// - clusters of three or more rates that are so close to each other that their eigenvectors are nearly parallel.
 struct RealModes {
   using Matrix = ModalRates::Matrix;
 

@@ -8,14 +8,14 @@
 
 namespace spring_workbench::exponential {
 
-/// Decides when a step of `n` coordinates gets a new linear part. One that is frozen at a strain far from the present
-/// one makes iterations slow, and computing it costs as much as many iterations.
+/// Decides when a step of `n` coordinates gets a new linear part. A linear part that is frozen at a distant strain
+/// slows the iterations down, but computing a new one costs as much as many iterations.
 template <int n>
 class Refactorisation {
  public:
   using Strain = Eigen::Matrix<double, n, 1>;
 
-  /// To be called when the linear part has been computed at the strain `q`.
+  /// Call this when the linear part has been computed at the strain `q`.
   void restart(const Strain& q) {
     begin_ = q;
     path_ = 0.0;
@@ -43,10 +43,10 @@ class Refactorisation {
   static constexpr int budget = 150;
 
  private:
-  Strain begin_ = Strain::Zero();  ///< of the last step
+  Strain begin_ = Strain::Zero();  ///< strain at the start of the last step
   double path_ = 0.0;              ///< length of the path of the strain with this linear part [m √kg]
   int steps_ = 0;                  ///< with this linear part
-  int slow_iterations_ = 0;        ///< beyond fast_iterations, with this linear part
+  int slow_iterations_ = 0;        ///< iterations beyond fast_iterations, with this linear part
 };
 
 }  // namespace spring_workbench::exponential

@@ -15,11 +15,11 @@ class Residual {
   using NodeModes = typename Part::NodeModes;
   using NodeStrains = typename Part::NodeStrains;
 
-  /// All must outlive this.
+  /// The arguments must outlive this object.
   Residual(const Equation& equation, const Part& part, const Strain& q0, const Strain& q_dot0)
       : equation_(equation), part_(part), q0_(q0), q_dot0_(q_dot0) {}
 
-  /// At the moments of a forcing, where the modes of the deviation from the start are `x`.
+  /// Returns the residual at the moments of a forcing; `x`: modes of the deviation from the start at these moments.
   SPRING_WORKBENCH_INLINE NodeStrains at(const typename Equation::Forcing& forcing, const NodeModes& x) const {
     NodeStrains dq, dv, q, q_dot, r;
     part_.deviation(x, dq, dv);
@@ -32,7 +32,7 @@ class Residual {
     return r;
   }
 
-  /// The defect of the collocation polynomial through the residual at the nodes: the residual at the samples minus it.
+  /// Returns the defect at the samples: the residual minus the collocation polynomial through its values at the nodes.
   SPRING_WORKBENCH_INLINE static NodeStrains defect(NodeStrains at_samples, const NodeStrains& at_nodes) {
     const std::array<math::Pack, Collocation::count>& weights = Collocation::at_samples();
     for (std::size_t i = 0; i < n; ++i) {

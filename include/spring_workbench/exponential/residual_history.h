@@ -4,9 +4,9 @@
 
 namespace spring_workbench::exponential {
 
-/// The residual of the last step of `n` coordinates, from which the iteration of the next one starts. What is kept is
-/// the residual plus the linear part at the start of the step, less the first-order effect of the forcing: that is
-/// smooth even where the forcing jumps, and does not depend on where a step begins.
+/// The residual of the last step of `n` coordinates, from which the iteration of the next one starts. The stored
+/// quantity is the residual plus the linear part at the start of the step, minus the first-order effect of the forcing:
+/// this is smooth even if the forcing jumps, and does not depend on where a step begins.
 template <int n>
 class ResidualHistory {
  public:
@@ -14,7 +14,7 @@ class ResidualHistory {
   using NodeStrains = typename Extrapolation<n>::NodeValues;
 
   /// Keeps the residual at the nodes of a step of `h` from `t` [s]. `linear`: S q + D q̇ at its start; `by_forcing`: the
-  /// acceleration by the forcing alone, to first order.
+  /// acceleration due to the forcing alone, to first order.
   SPRING_WORKBENCH_INLINE void keep(double t, double h, const Strain& linear, const NodeStrains& by_forcing,
                                     NodeStrains residual) {
     for (std::size_t i = 0; i < n; ++i) residual[i] = residual[i] - by_forcing[i] + linear[static_cast<int>(i)];

@@ -53,8 +53,8 @@ class CadenceClock {
   double k_ = -1.0;                 ///< number of the newest sample
   double receipt_ = 0.0;            ///< newest [s]
   double stamp_ = 0.0;              ///< newest [s]
-  double level_ = 0.0;              ///< of the line at k = 0 [s]
-  double slope_ = 0.0;              ///< of the line per sample [s]
+  double level_ = 0.0;              ///< offset of the line at k = 0 [s]
+  double slope_ = 0.0;              ///< slope of the line per sample [s]
   std::deque<Point> quickest_;      ///< the receipt with the smallest delay in each half second
   double bucket_end_ = 0.0;         ///< number of the sample that begins the next half second
   std::deque<Receipt> recent_;      ///< the last half second

@@ -26,7 +26,7 @@ struct FastrakRecord {
   int station = 1;  ///< 1 … 4
   char error =
       ' ';  ///< the device's error letter; blank: none. A warning only: the pose is still the device's best estimate
-  Vector3d p_TS = Vector3d::Zero();            ///< of the receiver S in the transmitter's frame T [m]
+  Vector3d p_TS = Vector3d::Zero();            ///< position of the receiver S in the transmitter's frame T [m]
   Quaterniond q_TS = Quaterniond::Identity();  ///< norm within 1 % of 1
   bool button = false;                         ///< switch of the stylus; false if the output list does not include it
 };
@@ -39,7 +39,7 @@ class FastrakLayout {
   /// Throws InputError for an unknown item, a list without position or orientation, or records longer than 254 bytes.
   FastrakLayout(const std::vector<int>& items, FastrakFormat format, FastrakUnits units);
 
-  std::size_t length() const { return length_; }  ///< of a record [bytes], including its header of three bytes
+  std::size_t length() const { return length_; }  ///< length of a record [bytes], including its header of three bytes
 
   /// Decodes a record of `length()` bytes. Returns nothing if a byte is invalid (header, blanks, digits, line break), a
   /// number is not finite or not plausible (position beyond 10 m, quaternion not of norm 1, angle out of range), or two

@@ -16,7 +16,7 @@ struct ForkAppearance {
   Spring spring = Spring::coil;
   End end = End::prongs;
   bool shaft = true;
-  int turns = 10;             ///< of the coil, ≥ 1
+  int turns = 10;             ///< turns of the coil, ≥ 1
   int points_per_turn = 12;   ///< ≥ 3
   int wire_sides = 6;         ///< number of sides of the wire's cross section, ≥ 3
   int round_sides = 16;       ///< number of sides of shaft, hub and prongs, ≥ 3
@@ -25,7 +25,7 @@ struct ForkAppearance {
   double shaft_length = 3.0;  ///< behind the handle frame
   double prong_radius = 0.085;
   double prong_gap = 0.36;    ///< distance of the outer two of the three prongs from the middle one
-  double prong_length = 1.1;  ///< beyond the tip
+  double prong_length = 1.1;  ///< length beyond the tip
   double needle_length = 1.3;
   double ball_radius = 0.45;  ///< also of the diamond
 

@@ -18,7 +18,7 @@ struct BoxContact {
 /// boxes would pass each other along this direction.
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double margin);
 
-/// The same for a box and the half-space `n · x < height`: the corners of the face that looks towards it.
+/// Returns the contacts of a box with the half-space `n · x < height`: the corners of the face that looks towards it.
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const Vector3d& n_W, double height, double margin);
 
 }  // namespace spring_workbench::geometry

@@ -30,7 +30,7 @@ struct BoxGap {
 };
 BoxGap gap_between(const OutlineBox& a, const OutlineBox& b);
 
-/// The same for a box and the half-space z < `height`.
+/// Returns the gap of a box to the half-space z < `height` in the same way.
 BoxGap gap_above(const OutlineBox& box, double height);
 
 }  // namespace spring_workbench::geometry

@@ -24,8 +24,8 @@ struct HalfSpace {
 double free_fraction_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below,
                            double tolerance, double limit);
 
-/// The same for another box, at rest. The separating plane is fixed to whichever of the two boxes gives the larger
-/// fraction.
+/// Returns that fraction for another box, at rest, instead of a half-space. The separating plane is fixed to whichever
+/// of the two boxes gives the larger fraction.
 double free_fraction_to(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
                         double limit);
 

@@ -8,10 +8,10 @@ namespace spring_workbench::geometry {
 struct NearestPoint {
   Vector3d p = Vector3d::Zero();   ///< on the surface [m]
   Vector3d n = Vector3d::UnitZ();  ///< unit, outward
-  double distance = 0.0;           ///< of the query point along `n` [m]; negative inside
+  double distance = 0.0;           ///< distance of the query point along `n` [m]; negative inside
 };
 
-// Closed formulas. Where several points are as near, one of them is taken.
+// Closed formulas. If several points are equally near, one of them is returned.
 NearestPoint nearest_point(const Box& box, const Vector3d& q);
 NearestPoint nearest_point(const Sphere& sphere, const Vector3d& q);
 NearestPoint nearest_point(const Cylinder& cylinder, const Vector3d& q);

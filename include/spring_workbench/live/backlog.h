@@ -26,7 +26,7 @@ class Backlog {
     return std::exchange(kept_, {});
   }
   bool empty() const { return kept_.empty(); }
-  /// How often put() had to wait.
+  /// Number of times that put() had to wait.
   std::size_t waits() const { return waits_; }
 
  private:

@@ -19,7 +19,7 @@ struct Change {
   std::string what;               ///< name of the change, e.g. the service
   Command command;                ///< the change as a command, to be repeated in a replay
   std::string scene;              ///< path of the scene that the state belongs to
-  std::uint64_t hash_before = 0;  ///< of the state before the change
+  std::uint64_t hash_before = 0;  ///< hash of the state before the change
   simulation::SimulationState
       state;  ///< state after the change; empty if nothing changed and only the hash is recorded
 };
@@ -36,10 +36,10 @@ struct Entry {
   std::variant<hand_input::Accepted, Change> what;
 };
 
-/// Counts over the changes of a journal after the first one.
+/// Counts of the changes of a journal after the first one.
 struct ReplayedChanges {
-  std::size_t made_again = 0;
-  std::size_t given = 0;                ///< changes that cannot be repeated: the recorded state is restored
+  std::size_t repeated = 0;             ///< changes that were repeated
+  std::size_t restored = 0;             ///< changes that cannot be repeated: the recorded state is restored
   std::vector<std::string> mismatches;  ///< changes that did not lead to the recorded state when they were repeated
 };
 
@@ -82,7 +82,7 @@ class Replayer {
   void advance_to_entry(double t, const AtStop& at_stop);
   void apply(const hand_input::Accepted& accepted);
   void apply(const Change& change);
-  bool make_again(const Change& change);
+  bool repeat(const Change& change);
 
   std::function<scene::Scene(const std::string&)> load_scene_;
   simulation::SimulationSettings settings_;

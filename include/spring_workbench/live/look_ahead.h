@@ -44,13 +44,13 @@ class LookAhead {
   /// Returns the position error that 99 % of the newest 1000 comparisons do not exceed [m].
   double position_error_99() const;
   /// Reports that the input of `committed` or of its feed has changed.
-  void input_changed() { is_there_ = false; }
+  void input_changed() { up_to_date_ = false; }
   /// Forgets the displayed poses, because the committed simulation was changed.
   void restart();
   /// Allows the displayed time to go back, because time has restarted.
   void allow_time_back() {
     shown_until_ = -std::numeric_limits<double>::infinity();
-    is_there_ = false;
+    up_to_date_ = false;
   }
 
  private:
@@ -72,7 +72,7 @@ class LookAhead {
   simulation::Simulation copy_;
   HeldObjects held_in_copy_, held_in_committed_;
   bool has_followed_ = false;
-  bool is_there_ = false;  ///< nothing has changed since the copy was advanced to the newest sample
+  bool up_to_date_ = false;  ///< the copy is at the newest sample, and nothing has changed since
   double shown_until_ = -std::numeric_limits<double>::infinity();  ///< [s]
   std::deque<Held> shown_;
   std::vector<Held> before_;  ///< held objects of the committed simulation at the last comparison

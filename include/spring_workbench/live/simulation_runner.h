@@ -68,7 +68,7 @@ struct CycleReport {
 
 /// Statistics of one hand's samples so far.
 struct HandStatistics {
-  motion::StreamFigures stream;  ///< of the samples used
+  motion::StreamFigures stream;  ///< figures of the samples used
   hand_input::GateCounts gate;
   hand_input::ReacquisitionCounts reacquisition;
   std::size_t tracker_moves = 0;  ///< see Feed
@@ -199,7 +199,7 @@ class SimulationRunner {
   Pace pace_;
   bool was_behind_ = false;  ///< was behind at the last cycle, and no sample has arrived since
   HandTimes times_;
-  std::map<std::string, RigidTransform> places_;  ///< of objects, for the first epoch
+  std::map<std::string, RigidTransform> places_;  ///< poses of objects, for the first epoch
   Undo undo_;
   std::size_t revision_ = 0;
   bool keeps_journal_ = false;

@@ -11,7 +11,7 @@ namespace spring_workbench::math {
 template <int n, typename S>
 class SquareSystem {
  public:
-  SquareSystem() = default;  ///< of no matrix yet
+  SquareSystem() = default;  ///< without a matrix
   /// `columns[j]`: column j.
   explicit SquareSystem(const S (&columns)[n][n]) {
     for (int j = 0; j < n; ++j) {

@@ -24,9 +24,9 @@ class StateArchive {
  public:
   using Words = std::vector<std::uint64_t>;
 
-  /// Reads the numbers, about as many as `expected`.
+  /// Makes an archive that reads the numbers of a state, about as many as `expected`.
   explicit StateArchive(std::size_t expected = 0) { taken_.reserve(expected); }
-  /// Sets them from `words`, which must outlive this.
+  /// Makes an archive that sets the numbers of a state from `words`, which must outlive it.
   explicit StateArchive(const Words& words) : given_(&words) {}
 
   bool sets() const { return given_ != nullptr; }
@@ -34,13 +34,14 @@ class StateArchive {
   Words taken() && { return std::move(taken_); }
   bool at_end() const { return given_ == nullptr || next_ == given_->size(); }
 
-  /// The next values of the state. Throws std::out_of_range if there are too few words.
+  /// Reads or sets the next values of the state. Throws std::out_of_range if there are too few words.
   template <typename... Values>
   void operator()(Values&... values) {
     (exchange(values), ...);
   }
 
-  /// The size of a container with at least one word per element. Throws std::out_of_range if fewer words are left.
+  /// Reads or sets the size of a container with at least one word per element. Throws std::out_of_range if fewer words
+  /// are left.
   std::size_t size(std::size_t present) {
     exchange(present);
     if (sets() && present > given_->size() - next_) throw std::out_of_range("state: ends too early");

@@ -17,7 +17,7 @@ class HeadMotion {
 
  private:
   PosePredictor predictor_;
-  double stamp_ = -std::numeric_limits<double>::infinity();  ///< of the newest sample [s]
+  double stamp_ = -std::numeric_limits<double>::infinity();  ///< stamp of the newest sample [s]
   double received_at_ = 0.0;                                 ///< time at which it was given [s]
 };
 

@@ -15,7 +15,7 @@ struct MotionState {
   Twist acceleration;
 };
 
-/// The same with angular velocity and acceleration in the axes of the frame itself.
+/// Motion of a frame B at one moment, with angular velocity and acceleration in its own axes.
 struct OwnAxesMotion {
   RigidTransform X = RigidTransform::Identity();  ///< X_WB
   Vector3d v_W = Vector3d::Zero();                ///< [m/s]
@@ -28,10 +28,10 @@ struct OwnAxesMotion {
 template <typename S>
 struct FrameForcing {
   math::ThreeByThree<S> R_WB;
-  math::Three<S> v_B;      ///< of the origin [m/s]
+  math::Three<S> v_B;      ///< velocity of the origin [m/s]
   math::Three<S> w_B;      ///< [rad/s]
   math::Three<S> alpha_B;  ///< [rad/s²]
-  math::Three<S> a_B;      ///< of the origin, less gravity [m/s²]
+  math::Three<S> a_B;      ///< acceleration of the origin, less gravity [m/s²]
 };
 
 /// Motion of a frame, twice differentiable over the requested times.

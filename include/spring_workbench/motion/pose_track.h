@@ -27,7 +27,7 @@ class PoseTrack {
   /// reference is valid until the next call of a non-const function. Throws std::logic_error if the track is empty or
   /// `t` is before begin().
   const MotionSegment& segment(double t);
-  /// The same without fixing velocities: the motion as known so far.
+  /// The segment at `t` without fixing velocities: the motion as known so far.
   MotionSegment provisional(double t) const;
   /// The pose at `t` as in provisional(); at a sample, exactly that of the sample.
   RigidTransform pose(double t) const;
@@ -49,7 +49,7 @@ class PoseTrack {
   };
 
   std::deque<Node>::const_iterator first_after(double t) const;
-  std::size_t index_at(double t) const;     ///< of the sample at or before `t`
+  std::size_t index_at(double t) const;     ///< index of the sample at or before `t`
   bool joined(std::size_t k) const;         ///< sample k + 1 exists and follows sample k without a dropout
   Node with_velocity(std::size_t k) const;  ///< sample k must be joined to a neighbour
   MotionSegment make_segment(std::size_t k) const;

@@ -27,7 +27,7 @@ class Slip {
   bool open_ = false;
   Vector3d by_W_ = Vector3d::Zero();    ///< [m]
   Vector3d turn_S_ = Vector3d::Zero();  ///< rotation vector in the stylus' axes [rad]
-  double left_ = 1.0;                   ///< of both, at the end of the step
+  double left_ = 1.0;                   ///< remaining fraction of both at the end of the step
 };
 
 }  // namespace spring_workbench::motion

@@ -75,7 +75,7 @@ class StreamClock {
   double max_age_;
   std::int64_t offset_ = 0;             ///< stamps minus local times [ns]
   std::optional<std::int64_t> newest_;  ///< stamp
-  std::int64_t arrival_ = 0;            ///< of that message [ns]
+  std::int64_t arrival_ = 0;            ///< arrival of that message [ns]
   double smallest_age_ = 0.0;           ///< smallest recent age, increasing at clock_drift [s]
   std::deque<Stamped> unmatched_;       ///< messages that did not fit since the newest one that did
   std::size_t steps_ = 0;

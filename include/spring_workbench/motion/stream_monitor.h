@@ -5,14 +5,14 @@
 
 namespace spring_workbench::motion {
 
-/// How evenly the samples of a station arrive; smoothed over about fifty samples.
+/// Rate and jitter of the samples of a station, smoothed over about fifty samples.
 struct StreamFigures {
   std::size_t samples = 0;
   double interval = 0.0;        ///< mean time between stamps [s]; 0 before the second sample
   double stamp_jitter = 0.0;    ///< standard deviation of the time between stamps [s]
   double receipt_jitter = 0.0;  ///< standard deviation of the time between receipts [s]
   double age = 0.0;             ///< age of the newest sample on arrival: receipt minus stamp [s]
-  double longest_gap = 0.0;     ///< between stamps [s]
+  double longest_gap = 0.0;     ///< longest time between stamps [s]
 };
 
 /// Computes the figures of a stream of stamps [s] and their times of receipt [s], from the same or two different

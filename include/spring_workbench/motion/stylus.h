@@ -41,9 +41,9 @@ class Stylus {
   const PoseTrack& track() const { return track_; }
   /// Whether its pose at time `now` [s] is known from samples.
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
-  /// Its motion from `now` to the next sample; one that is a rounding error later counts as at `now`.
+  /// Returns its motion from `now` to the next sample; a sample that is later than `now` only by rounding is skipped.
   MotionSegment motion(double now) { return of_tool(track_.segment(std::max(now + same_time, track_.begin()))); }
-  /// The same before a step has used it: the next sample may still change the velocity at its end.
+  /// Returns the motion as known so far: the next sample may still change the velocity at its end.
   MotionSegment provisional(double now) const { return of_tool(track_.provisional(std::max(now, track_.begin()))); }
   /// The time after `now` at which the next segment of the motion begins; infinity if there is none.
   double next_sample(double now) const { return track_.next_after(now); }

@@ -64,7 +64,7 @@ class FreeObjects : public ObjectList {
 
   std::unique_ptr<collision::CollisionWorld> collision_;      ///< null without contact
   std::unique_ptr<contact::ContactStepper> contact_stepper_;  ///< likewise
-  std::unique_ptr<contact::DynamicStepper> dynamic_stepper_;  ///< of contact mode `dynamic` alone
+  std::unique_ptr<contact::DynamicStepper> dynamic_stepper_;  ///< only with contact mode `dynamic`
   contact::ContactLog contacts_;
   /// Data on a movable object in addition to its state.
   struct Object {

@@ -52,7 +52,7 @@ class Objects : public FreeObjects {
    public:
     explicit Archive(Objects& of) : of_(of) {}
     void exchange(math::StateArchive& state);
-    /// The same for `some` objects only, with the part of the state that belongs to no single object.
+    /// Saves or restores only the states of the objects `some`, and the part of the state that belongs to no object.
     void exchange(math::StateArchive& state, const std::vector<std::size_t>& some);
 
    private:
@@ -76,7 +76,7 @@ class Objects : public FreeObjects {
   bool carry_pair(std::size_t object, std::size_t other, std::set<std::size_t>& stepped_objects, double now, double h,
                   StepCounts& counts);
 
-  std::unique_ptr<FreePairs> pairs_;  ///< of contact mode `dynamic` alone
+  std::unique_ptr<FreePairs> pairs_;  ///< only with contact mode `dynamic`
   std::set<std::size_t> in_contact_;  ///< likewise
 };
 

@@ -20,7 +20,7 @@ struct DrivenBody {
   Twist displacement_W;                              ///< over the step without contact, at O, world axes [m, rad]
   /// Change of the displacement [m, rad] per constant wrench at O over the step, in world axes; symmetric, ≥ 0.
   Matrix6d compliance = Matrix6d::Zero();
-  Twist V_WO_W;                          ///< at the start of the step
+  Twist V_WO_W;                          ///< twist at the start of the step
   Matrix6d mobility = Matrix6d::Zero();  ///< change of the velocity per impulse; symmetric, ≥ 0
   Matrix6d displacement_by_impulse =
       Matrix6d::Zero();  ///< change of the displacement over the step per impulse at its start
@@ -61,7 +61,7 @@ class RigidWorld {
   virtual void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) = 0;
 
   virtual const RigidTransform& pose(std::size_t body) const = 0;
-  virtual const Twist& velocity(std::size_t body) const = 0;  ///< at O, world axes
+  virtual const Twist& velocity(std::size_t body) const = 0;  ///< twist at O, world axes
   virtual bool awake(std::size_t body) const = 0;             ///< false for one that is not movable
 
   /// Broadphase: returns what is movable and comes near the path of the body over `h` [s]: sleeping bodies, and those

@@ -63,7 +63,7 @@ struct Scene {
   std::vector<Body> bodies;
   double gravity = standard_gravity;  ///< [m/s²], along −z of world; ≥ 0
   double bench_height = 0.0;          ///< z of the workbench plane in world [m]
-  Material bench_material;            ///< of the bench, and the default of the bodies
+  Material bench_material;            ///< material of the bench, and the default for the bodies
   ContactMode contact = ContactMode::stop;
   std::string tool = "spring_fork";
   double force_scale = 1.0;  ///< ratio of virtual to real force, > 0

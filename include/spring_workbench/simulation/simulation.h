@@ -25,7 +25,7 @@ class SimulationState {
  public:
   SimulationState() = default;  ///< an empty state, which `Simulation::restore` refuses
 
-  int styluses() const { return styluses_; }  ///< of the simulation that was saved; 0 if empty
+  int styluses() const { return styluses_; }  ///< number of styluses of the simulation that was saved; 0 if empty
   /// Returns a hash of all its numbers; equal states have equal hashes on every machine.
   std::uint64_t hash() const { return math::hash(words_); }
   bool operator==(const SimulationState& other) const { return origin_ == other.origin_ && words_ == other.words_; }
@@ -36,7 +36,7 @@ class SimulationState {
   friend std::string serialise(const SimulationState& state);
   friend SimulationState parse_state(const std::string& text);
 
-  std::string origin_;  ///< what a simulation must have in common to be restored from it, a line per property
+  std::string origin_;  ///< properties that a simulation to be restored from it must share, one per line
   int styluses_ = 0;
   math::StateArchive::Words words_;
 };
@@ -114,7 +114,7 @@ class Simulation {
 
   /// Simulated time [s]; the stamp of the first sample until `advance` is called.
   double time() const;
-  /// The same in world time [s].
+  /// Simulated time in world time [s].
   double world_time() const;
 
   /// Adds a pose of the stylus; its position is scaled by `settings().hand_scale`. Returns false, and ignores the pose,

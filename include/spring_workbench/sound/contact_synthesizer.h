@@ -8,8 +8,8 @@ namespace spring_workbench::sound {
 
 /// A ringing body: as compact as a cube of edge `size` [m] and with `mass` [kg], both > 0.
 struct SoundingBody {
-  double mass = 0.13, size = 0.06;  ///< of a small wooden block
-  double compliance = 0.0;          ///< of the materials of both bodies where it was struck, ≥ 0 [m/N]
+  double mass = 0.13, size = 0.06;  ///< defaults: a small wooden block
+  double compliance = 0.0;          ///< compliance of both bodies' materials at the contact, ≥ 0 [m/N]
 
   bool operator==(const SoundingBody& other) const {
     return mass == other.mass && size == other.size && compliance == other.compliance;

@@ -6,15 +6,15 @@
 
 namespace spring_workbench::stepping {
 
-/// What the steps of several spans say of their errors, without the trial steps that were discarded.
+/// Error estimates of the steps of several spans, without discarded trial steps.
 struct StepEstimates {
   double position = 0.0;  ///< [m]
   double angle = 0.0;     ///< [rad]
-  double omega_dt = 0.0;  ///< of the stiffest mode
-  int extra_steps = 0;    ///< more than one for each span
+  double omega_dt = 0.0;  ///< ω·dt of the stiffest mode
+  int extra_steps = 0;    ///< steps beyond one per span
   int substeps = 0;       ///< discarded attempts, repeated with a shorter step
-  int stops = 0;          ///< that met the end of the fork's range
-  int fallback = 0;       ///< taken by an L-stable rule in place of the integrator
+  int stops = 0;          ///< steps that met the end of the fork's range
+  int fallback = 0;       ///< steps taken by an L-stable rule in place of the integrator
   double energy = 0.0;    ///< sum of the estimated errors in energy [J]
   ErrorBounds bounds;
 

@@ -36,11 +36,11 @@ struct ToolState {
                                                      ///< calibration or a regrasp has moved it
   RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the proxy handle
   RigidTransform X_WE = RigidTransform::Identity();        ///< pose of the tip
-  Twist V_WE_W;                                            ///< of the tip, world axes
+  Twist V_WE_W;                                            ///< twist of the tip, world axes
   Wrench tip_wrench_W;                                     ///< on the object at the tip, world axes [N, N·m]
   Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]
-  double kinetic_energy = 0.0;                             ///< of the held object, in world [J]
+  double kinetic_energy = 0.0;                             ///< kinetic energy of the held object, in world [J]
   double error_bound = 0.0;                                ///< bound of the run's error in position [m]
   bool error_bounded = false;                              ///< whether the bound is valid (doc/model.md, "Error bound")
   double force_scale = 1.0;                                ///< ratio of virtual to real force
@@ -53,7 +53,7 @@ struct ToolState {
   double force_angle = 0.0;       ///< angle Φ between that axis and the force on the tool, 0 … π [rad]
   double load = 0.0;              ///< load as a fraction of the scene's range of loads, 0 … 1 (LoadRange)
   bool clutch = false;            ///< whether the clutch is on: the hand moves without the tool
-  double probe_damping = 0.0;     ///< of the touching probe's own damper [N·s/m]
+  double probe_damping = 0.0;     ///< coefficient of the touching probe's own damper [N·s/m]
   double material_stiffness = 0.0;              ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
 };

@@ -10,7 +10,7 @@ namespace spring_workbench::validation {
 /// name (in a file, on the parameter server or in a bag) reports the new one.
 const std::map<std::string, std::string>& renamed();
 
-/// The same for the values of a setting; refuse() reports the new one.
+/// Values of settings that were renamed: old value → new value; refuse() reports the new one.
 const std::map<std::string, std::string>& renamed_values();
 
 /// Returns what is wrong with a key that is not one of `known`: the new name of a renamed key, the nearest key of a

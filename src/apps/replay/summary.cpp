@@ -79,7 +79,7 @@ std::string Summary::json() const {
       << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback
       << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_unsolved\": " << advance.steps_unsolved
       << ", \"time_lost\": " << number(advance.time_lost) << ", \"steps_rejected\": " << advance.steps_rejected
-      << ", \"changes\": " << changes.made_again + changes.given << ", \"changes_made_again\": " << changes.made_again
+      << ", \"changes\": " << changes.repeated + changes.restored << ", \"changes_made_again\": " << changes.repeated
       << ", \"changes_mismatched\": " << changes.mismatches.size() << ", \"state_hash\": \""
       << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active())
       << ", \"skipped\": " << list_of(advance.skipped()) << "}";

@@ -13,7 +13,7 @@ NodeName::NodeName(const std::string& name) : name_(name) {
     validation::refuse("node", "name", name, "the name of a ROS node");
 }
 
-std::string NodeName::beside(const std::string& name) const {
+std::string NodeName::in_namespace(const std::string& name) const {
   return ros::names::append(ros::names::parentNamespace(ros::names::resolve(name_)), name);
 }
 

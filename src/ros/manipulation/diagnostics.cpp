@@ -23,7 +23,7 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
   }
   if (input.frames.count(stylus_frame) == 0) {
     return "no frame " + stylus_frame + " on /tf, but " + validation::join({input.frames.begin(), input.frames.end()}) +
-           ": is the parameter stylus_frame right?";
+           ": is the parameter stylus_frame correct?";
   }
   const auto most = std::max_element(input.rejected.begin(), input.rejected.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -31,7 +31,7 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
   if (most->first == "too old" || most->first == "from the future") {
     std::ostringstream text;
     text << "all samples are " << most->first << ", the newest by " << std::abs(input.newest_offer_age)
-         << " s: are the clocks of two hosts apart, or is a bag played without --clock and use_sim_time?";
+         << " s: do the clocks of two hosts differ, or is a bag played without --clock and use_sim_time?";
     return text.str();
   }
   return "all samples are rejected, most often as: " + most->first;
@@ -129,7 +129,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   if (loop.waits > last_loop_.waits) status.raise(DiagnosticStatus::WARN, "the loop waits: publishing takes too long");
   if (loop.time_skipped > last_loop_.time_skipped) status.raise(DiagnosticStatus::WARN, "time was skipped");
   if (loop.cycles_behind > last_loop_.cycles_behind)
-    status.raise(DiagnosticStatus::WARN, "behind: simulation is slower than the motion of the hands");
+    status.raise(DiagnosticStatus::WARN, "behind: the simulation is slower than the motion of the hands");
   return status.status();
 }
 

@@ -89,8 +89,8 @@ bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
   if (!sender_.accepts(sender, ros_common::local_time().attended)) {
     statistics_.other_sender = sender;
-    rejections_.add(another_sender,
-                    "tf: " + frame_ + ": must have one sender, " + sender_.name() + ", got also " + sender);
+    rejections_.add(another_sender, "tf: " + frame_ + ": must have one sender, " + sender_.name() + ", but " + sender +
+                                        " also sends it");
     return false;
   }
   if (another) wall_poses_.restart();
@@ -169,7 +169,7 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   // Without a clock the message has no time: an epoch that it starts would soon be replaced by the true one.
   if (ros::Time::now().isZero()) return rejections_.add("no clock", joy_ + ": no time on /clock yet");
   if (message->buttons.empty())
-    return rejections_.add("no buttons", joy_ + ": buttons: must be at least one button, got none");
+    return rejections_.add("no buttons", joy_ + ": buttons: missing; give at least one button");
   if (events_.is_full()) return rejections_.add(loop_stalled, joy_ + ": the loop is stalled and accepts no input");
   const std::int64_t stamp = ros_common::nanoseconds_of(message->header.stamp);
   if (!ros::Time::isSimTime())

@@ -133,7 +133,7 @@ void edit_object(live::SimulationRunner& runner, const std::vector<std::string>&
 void save_scene(live::SimulationRunner& runner, const std::vector<std::string>& roots,
                 const SaveScene::Request& request, SaveScene::Response& response) {
   const scene::Scene scene = runner.locked([](const simulation::Simulation& s) { return s.scene_now(); });
-  response.message = "wrote " + scene::save_scene(scene, request.path, roots) + " and the YAML next to it";
+  response.message = "wrote " + scene::save_scene(scene, request.path, roots) + " and the YAML file next to it";
 }
 
 void calibrate(live::SimulationRunner& runner, const Calibrate::Request& request, Calibrate::Response& response) {
@@ -198,7 +198,7 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
   change("clutch", set_clutch, SetClutch());
   const auto reset = [&runner](auto&, auto& response) {
     runner.restart();
-    response.message = "all objects are back at their start";
+    response.message = "all objects are back at their start poses";
   };
   serve("reset", reset, std_srvs::Trigger());
   const auto undo = [&runner](auto&, auto& response) { response.message = "undone: " + runner.undo(); };

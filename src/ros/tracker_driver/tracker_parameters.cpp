@@ -56,7 +56,8 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   TrackerParameters result;
   for (const char* key : {"input", "truth"}) {
     if (parameters[key])
-      throw validation::InputError(where + ": " + key + ": unknown key; it is now a parameter of manipulation, ~input");
+      throw validation::InputError(where + ": " + key +
+                                   ": unknown key; it is now the parameter ~input of manipulation");
   }
   if (parameters["source"]) result.source = read_source(parameters["source"], where);
   config::check_keys(parameters, where, "", keys_of(result.source));

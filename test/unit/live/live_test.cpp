@@ -377,8 +377,8 @@ TEST(Journal, ReplayedComesToTheSameBits) {
       return accepted != nullptr && accepted->kind == hand_input::Accepted::Kind::external_wrench;
     };
     EXPECT_GT(std::count_if(journal.begin(), journal.end(), is_wrench), 100);
-    EXPECT_GT(replayer.changes().made_again, 5u);
-    EXPECT_EQ(replayer.changes().given, 0u);
+    EXPECT_GT(replayer.changes().repeated, 5u);
+    EXPECT_EQ(replayer.changes().restored, 0u);
     for (const std::string& mismatch : replayer.changes().mismatches) ADD_FAILURE() << seed << ": " << mismatch;
     EXPECT_EQ(replayer.simulation()->state_hash(), hash);
   }

@@ -144,8 +144,8 @@ TEST(Undo, AndEditsAreReplayedFromTheJournalBitByBit) {
   Replayer replayer([](const std::string&) { return two_cubes(); }, simulation::SimulationSettings());
   for (const Entry& entry : journal) replayer.play(entry, [](auto&, auto&) {});
   EXPECT_TRUE(replayer.changes().mismatches.empty());
-  EXPECT_EQ(replayer.changes().made_again, 5u);
-  EXPECT_EQ(replayer.changes().given, 0u);
+  EXPECT_EQ(replayer.changes().repeated, 5u);
+  EXPECT_EQ(replayer.changes().restored, 0u);
   EXPECT_EQ(replayer.simulation()->objects().size(), 2u);
   EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
 }

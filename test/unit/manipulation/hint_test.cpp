@@ -31,7 +31,7 @@ TEST(HintForSilence, NamesWhatToLookAt) {
     input.rejected = {{reason, 90}, {"too fast", 10}};
     input.newest_offer_age = 37.0;
     expect(hint(), reason);
-    expect(hint(), "by 37 s: are the clocks of two hosts apart");
+    expect(hint(), "by 37 s: do the clocks of two hosts differ");
   }
   input.rejected = {{"not finite", 90}, {"too old", 10}};
   expect(hint(), "most often as: not finite");

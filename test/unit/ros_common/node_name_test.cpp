@@ -11,10 +11,10 @@ namespace {
 
 TEST(NodeName, NamesOfANodeAndOfItsNamespace) {
   EXPECT_EQ(NodeName("manipulation").of_node("fork"), "manipulation/fork");
-  EXPECT_EQ(NodeName("manipulation").beside("stylus/joy"), "/stylus/joy");
-  EXPECT_EQ(NodeName("left/manipulation").beside("stylus/joy"), "/left/stylus/joy");
+  EXPECT_EQ(NodeName("manipulation").in_namespace("stylus/joy"), "/stylus/joy");
+  EXPECT_EQ(NodeName("left/manipulation").in_namespace("stylus/joy"), "/left/stylus/joy");
   EXPECT_EQ(NodeName("/lab/right/bench").of_node("fork"), "/lab/right/bench/fork");
-  EXPECT_EQ(NodeName("/lab/right/bench").beside("tracker_driver/grasp"), "/lab/right/tracker_driver/grasp");
+  EXPECT_EQ(NodeName("/lab/right/bench").in_namespace("tracker_driver/grasp"), "/lab/right/tracker_driver/grasp");
 }
 
 TEST(NodeName, WhatNoNodeCanBeCalledIsRefused) {

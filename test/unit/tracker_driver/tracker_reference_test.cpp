@@ -96,7 +96,7 @@ TEST(WhyNotSent, AnyPoseIsSentAndNothingElse) {
 TEST(TrackerParameters, InputSettingsAreReportedAsThoseOfManipulation) {
   for (const std::string key : {"input", "truth"}) {
     EXPECT_EQ(refusal_of("{file: a.tum, " + key + ": {max_speed: 5}}"),
-              "/tracker_driver: " + key + ": unknown key; it is now a parameter of manipulation, ~input");
+              "/tracker_driver: " + key + ": unknown key; it is now the parameter ~input of manipulation");
   }
 }
 

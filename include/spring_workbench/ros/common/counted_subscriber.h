@@ -18,7 +18,7 @@ class CountedSubscriber {
 
   CountedSubscriber() = default;
   /// Subscribes to `topic` with a queue of `queue` messages and without delays by TCP. The callback runs in the
-  /// callback queue of `node`. `Parameter`: what it takes, as of a callback of roscpp.
+  /// callback queue of `node`. `Parameter`: parameter type of the callback, as in roscpp.
   template <class Parameter>
   static CountedSubscriber to(ros::NodeHandle node, const std::string& topic, std::uint32_t queue,
                               const boost::function<void(Parameter)>& callback) {
@@ -28,8 +28,8 @@ class CountedSubscriber {
   }
   std::string topic() const { return subscriber_.getTopic(); }
 
-  /// Number of messages that this process has lost so far, by topic: if it has several counted subscribers of one, as
-  /// each hand has one of /tf, of that which has lost most.
+  /// Number of messages that this process has lost so far, by topic. If a topic has several counted subscribers (each
+  /// hand has one for /tf), the largest of their counts.
   static std::map<std::string, std::size_t> lost();
 
  private:

@@ -8,7 +8,7 @@ namespace spring_workbench::ros_common {
 /// Forces this process to exit with `status` 1.5 s after `ends` becomes true, if it is still running, so that a ROS
 /// master that is gone or hangs cannot keep a node alive. `ends` is called in a thread of its own.
 void exit_after_timeout(std::function<bool()> ends, int status = EXIT_SUCCESS);
-/// The same after `timeout` [s].
+/// Does the same after `timeout` [s].
 void exit_after_timeout(std::function<bool()> ends, int status, double timeout);
 
 }  // namespace spring_workbench::ros_common

@@ -18,7 +18,7 @@ namespace spring_workbench::ros_common {
 /// the master does not list. Existing connections are kept, even to nodes that do not register again.
 class MasterWatch {
  public:
-  /// What the master reported last.
+  /// The newest report of the master.
   struct Answer {
     double received = 0.0;                                       ///< when [s], by the steady clock
     std::map<std::string, std::vector<std::string>> publishers;  ///< names of nodes by topic
@@ -42,8 +42,8 @@ class MasterWatch {
   const std::function<void()> on_new_master_;
   const std::string own_uri_, services_uri_;
   XmlRpc::XmlRpcValue parameters_;
-  std::vector<std::string> services_;         ///< of this process
-  std::map<std::string, std::string> types_;  ///< of its publishers' topics
+  std::vector<std::string> services_;         ///< services of this process
+  std::map<std::string, std::string> types_;  ///< types of its publishers' topics
   int subscribers_due_ = 0;                   ///< checks left until they are registered again; 0: none
   mutable std::mutex mutex_;
   std::shared_ptr<const Answer> answer_;

@@ -13,7 +13,7 @@ class NodeName {
   /// Name of a topic or service of the node itself.
   std::string of_node(const std::string& name) const { return name_ + "/" + name; }
   /// Name in the namespace of the node.
-  std::string beside(const std::string& name) const;
+  std::string in_namespace(const std::string& name) const;
 
  private:
   std::string name_;

@@ -43,7 +43,7 @@ class ServiceCaller {
   struct Calls;
   using Job = std::function<std::string(Calls&)>;
 
-  /// What the thread uses, which may outlive the caller.
+  /// Data of the thread, which may outlive the caller.
   struct Calls {
     void enqueue(const std::string& key, Job job);
     ros::ServiceClient open(const std::function<ros::ServiceClient()>& make);

@@ -70,7 +70,7 @@ class StatePublisher {
   ObjectsTopic objects_, shown_objects_;
   ros::Publisher contacts_publisher_, steps_publisher_, task_publisher_, accepted_publisher_, changes_publisher_;
   std::vector<HandTopics> hands_;
-  std::array<std::uint32_t, 2> journal_listeners_{};  ///< of accepted and of changes
+  std::array<std::uint32_t, 2> journal_listeners_{};  ///< subscribers of `accepted` and of `changes`
 };
 
 }  // namespace spring_workbench::manipulation

@@ -83,7 +83,7 @@ class StylusInput {
   StaticFrames static_frames_;
   motion::SenderChoice sender_;
   motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;  ///< as the next two, for wall time
-  std::int64_t host_steps_ = 0;  ///< of this host's wall clock at the newest message [ns]
+  std::int64_t host_steps_ = 0;  ///< steps of this host's wall clock at the newest message [ns]
   motion::StreamClock wall_buttons_;
   live::Inbox<live::StylusEvent> events_;
   InputStatistics statistics_;

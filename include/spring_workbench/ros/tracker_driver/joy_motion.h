@@ -50,7 +50,7 @@ class JoyMotion {
   JoySettings settings_;
   RigidTransform X_WB_;
   Twist V_WB_W_;
-  double age_ = 0.0;  ///< of the newest input [s]
+  double age_ = 0.0;  ///< age of the newest input [s]
   bool grasp_ = false, next_tool_ = false, clutch_ = false;
 };
 
