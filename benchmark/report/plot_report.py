@@ -347,14 +347,16 @@ def share_panel(axes, share, columns, lines):
 
 def shares(rows, line_of, column_of):
     """The fraction of cells that pass, by row and column, and the numbers."""
-    held, cells = defaultdict(int), defaultdict(int)
+    held, cells, alone = defaultdict(int), defaultdict(int), 0
     for row in rows:
         place = line_of(row), column_of(row)
         held[place] += int(row["held"])
         cells[place] += int(row.get("cells", 1))
-    return {
-        place: held[place] / cells[place] for place in cells if cells[place]
-    }, f"{sum(held.values())} of {sum(cells.values())} cells hold"
+        alone += int(row.get("on_its_own", 0))
+    title = f"{sum(held.values())} of {sum(cells.values())} cells hold"
+    if "on_its_own" in rows[0]:
+        title += f",\n{alone} of them on their own"
+    return {place: held[place] / cells[place] for place in cells if cells[place]}, title
 
 
 def amount(value):
