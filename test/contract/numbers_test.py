@@ -50,6 +50,7 @@ class Markers(unittest.TestCase):
             "3 of them: 10 <!-- the depth [um] of t.csv where depth [um]=9.6, n=3 -->",
             "2<!-- count n of t.csv where kind=stack --> of 3<!-- count kind of t.csv -->",
             "a remark <!-- without a table --> 5",
+            "22.0<!-- sum depth [um] of t.csv where kind=stack --> of 43<!-- sum depth [um] of t.csv -->",
         ):
             self.assertEqual(self.check(text), (text, []))
 
