@@ -66,6 +66,12 @@ def run_of(path):
     return "quick" if "--quick" in command else "full"
 
 
+def commit_of(path):
+    """The commit that a table's header names; None without one."""
+    with path.open(encoding="utf-8") as file:
+        return next((line[len("# commit: ") :].strip() for line in file if line.startswith("# commit: ")), None)
+
+
 def same(cell, wanted):
     try:
         return float(cell) == float(wanted)
