@@ -4,11 +4,11 @@ document is shown:
 
     in 12 µm<!-- max penetration_um of contact_extremes.csv where extreme=stack of ten --> at most
 
-`the`, `max`, `min`, `mean` or `sum` of a column, over the rows where all the cells named are as said (numbers as numbers), or
-match a pattern (`claim~^Rod .* samples`); `the` wants one row alone; `count` is how many rows have anything in that
-column. `times X` at the end gives another unit. The number is the last one before the marker, and must be what the
-table says, rounded to as many digits as it has. `run` is no number but `quick` or `full`: how the report was run that
-wrote the table, by the command in its header.
+`the`, `max`, `min`, `mean` or `sum` of a column, over the rows where all the cells named are as said (numbers as
+numbers), or match a pattern (`claim~^Rod .* samples`); `the` wants one row alone; `count` is how many rows have
+anything in that column. `times X` at the end gives another unit. The number is the last one before the marker, and must
+be what the table says, rounded to as many digits as it has. `run` is no number but `quick` or `full`: how the report
+was run that wrote the table, by the command in its header.
 
     of a quick<!-- run of verdicts.csv --> run
 
