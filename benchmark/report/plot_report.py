@@ -180,7 +180,9 @@ def rod_panel(axes, rows, name):
     draw_line(axes, paper, color="black", marker="*", linewidth=1.2, markersize=6, linestyle=":", label=PAPER)
     left = float(here[0]["hand_error"]) / float(here[0]["largest_deflection"])
     if left > 0.0:
-        axes.axhline(left, color="#7f7f7f", linestyle="--", linewidth=1.2, label="what the samples leave open")
+        axes.axhline(left, color="#7f7f7f", linestyle="--", linewidth=1.2, label="left open by the samples")
+        place = dict(transform=axes.transAxes, color="#5f5f5f", fontsize=9)
+        axes.text(0.03, 0.03, f"samples leave {left:.3g}", **place)
     factor, mass = float(here[0]["stiffness_factor"]), float(here[0]["mass"])
     fork = "default fork" if factor == 1.0 else f"{power_of_ten(factor)} times as stiff"
     log_axes(axes, title=f"{fork}, {load_name(mass)}", ylim=(1e-11, 10.0))
