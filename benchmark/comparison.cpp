@@ -61,6 +61,14 @@ double SceneRows::share_of_deflection(const ErrorTarget& target) const {
   return 0.0;
 }
 
+double SceneRows::left_by_samples() const {
+  for (const ErrorRow& row : rows) {
+    if (row.hand == "samples" && row.hand_error > 0.0 && row.largest_deflection > 0.0)
+      return row.hand_error / row.largest_deflection;
+  }
+  return 0.0;
+}
+
 double SceneRows::uncertainty(const ErrorTarget& target) const {
   for (const ErrorRow& row : rows) {
     if (row.finite && row.error > 0.0 && !row.own_reference)
@@ -82,7 +90,8 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
     if (row.ours || !wanted(row.method) || std::any_of(pairs.begin(), pairs.end(), same)) continue;
     if (!is_resolved(rows, row.method, target)) continue;
     const std::vector<CurvePoint> line = line_of(row.method);
-    const double error = std::min(target.error, std::max(first_error(line), min_error(ours)));
+    const double least = min_of_reference * uncertainty(target);  // errors below it mean nothing
+    const double error = std::min(target.error, std::max({first_error(line), min_error(ours), least}));
     pairs.push_back({row.method, error, run_time_for_error(ours, error), run_time_for_error(line, error),
                      end_of_line(rows, row.method)});
   }
@@ -91,6 +100,21 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
     return std::pair(!a.ratio(), a.ratio().value_or(none)) < std::pair(!b.ratio(), b.ratio().value_or(none));
   });
   return pairs;
+}
+
+std::vector<std::string> SceneRows::not_compared(const ErrorTarget& target,
+                                                 const std::function<bool(const std::string&)>& wanted) const {
+  std::vector<std::string> names;
+  for (const ErrorRow& row : rows) {
+    if (row.ours || !wanted(row.method) || is_resolved(rows, row.method, target)) continue;
+    if (std::find(names.begin(), names.end(), row.method) == names.end()) names.push_back(row.method);
+  }
+  return names;
+}
+
+bool SceneRows::anyone_arrives(const std::function<bool(const std::string&)>& wanted) const {
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const ErrorRow& row) { return !row.ours && row.finite && wanted(row.method); });
 }
 
 std::vector<SceneRows> by_scene(const std::vector<ErrorRow>& rows) {

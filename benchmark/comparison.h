@@ -21,7 +21,8 @@ struct ErrorTarget {
 };
 
 /// Our integrator `exponential` compared with one other method at an error that both reach: the target; or the first
-/// error of the other's curve, if that is smaller; or our smallest error, if ours was not measured down to the target.
+/// error of the other's curve, if that is smaller; or our smallest error, if ours was not measured down to the target;
+/// but none below what the reference resolves.
 struct Pair {
   std::string peer;
   double error = 0.0;                     ///< error at which they are compared, in the target's measure
@@ -41,12 +42,20 @@ struct SceneRows {
 
   /// The target as a fraction of the largest deflection.
   double share_of_deflection(const ErrorTarget& target) const;
+  /// What the samples of the hand leave open, as a fraction of the largest deflection; 0 if the hand is a function, or
+  /// if it is not known.
+  double left_by_samples() const;
   /// Uncertainty of the reference, in the target's measure.
   double uncertainty(const ErrorTarget& target) const;
   /// Compares ours with each `wanted` method of others. The worst results for ours come first, those that neither
-  /// reaches last. Skips peers that are measured against their own limit if that is not known well enough for the
-  /// target.
+  /// reaches last. Skips those of not_compared().
   std::vector<Pair> pairs(const ErrorTarget& target, const std::function<bool(const std::string&)>& wanted) const;
+  /// The `wanted` methods of others that are measured against their own limit, which is not known well enough for the
+  /// target.
+  std::vector<std::string> not_compared(const ErrorTarget& target,
+                                        const std::function<bool(const std::string&)>& wanted) const;
+  /// Whether a `wanted` method of others has a run that arrived.
+  bool anyone_arrives(const std::function<bool(const std::string&)>& wanted) const;
 };
 
 /// The rows grouped by title_of(), in their order.

@@ -21,14 +21,16 @@ struct RodCase {
   rod::ForkSettings fork;                            ///< except for its shape
   std::vector<std::string> shapes;                   ///< shape models to run it with
   std::vector<motion::PoseSample> hand;              ///< from t = 0 to beyond the end
+  std::vector<motion::PoseSample> fine_hand;         ///< the same hand at 2 kHz; empty if not known
   double duration = 4.0;                             ///< [s]
   double output_interval = 0.02;                     ///< [s]
   std::string recorded;                              ///< file with the trajectory by another solver, or empty
 };
 
-/// A hand's motion at 50 Hz from t = 0 to `duration` [s], made from `seed`: sines of 0.2 to 2.5 Hz in position (some
-/// 0.15 m) and rotation (some 0.6 rad) with a tremor of 8 to 12 Hz (0.1 mm, 2 mrad). The fork points forward and up.
-std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration);
+/// A hand's motion from t = 0 to `duration` [s] in samples `interval` [s] apart, made from `seed`: sines of 0.2 to 2.5
+/// Hz in position (some 0.15 m) and rotation (some 0.6 rad) with a tremor of 8 to 12 Hz (0.1 mm, 2 mrad). The fork
+/// points forward and up.
+std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration, double interval = 0.02);
 
 /// The samples of a file `t x y z qx qy qz qw`; empty if there is no file.
 std::vector<motion::PoseSample> read_motion(const std::string& path);

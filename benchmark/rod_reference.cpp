@@ -1,6 +1,7 @@
 #include "benchmark/rod_reference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +14,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double kRecordedUncertainty = 2e-9;  // m, as stated by the recorded trajectories
+constexpr double kFineHandTolerance = 1e-8;    // of fine_poses(); far below what the samples leave, at least 1e-4
 
 std::vector<RigidTransform> recorded_poses(const RodCase& one) {
   std::ifstream file(one.recorded);
@@ -48,7 +50,17 @@ double largest_deflection(const RodCase& one, const std::vector<RigidTransform>&
   return largest;
 }
 
+/// RodReference::hand_error of a case whose outputs are `halfway`.
+double hand_error(RodCase halfway, const std::string& shape, const std::vector<RigidTransform>& X_WO) {
+  if (halfway.fine_hand.empty()) return 0.0;
+  halfway.hand = halfway.fine_hand;
+  const PoseDistance left = largest_distance(X_WO, fine_poses(halfway, shape, kFineHandTolerance));
+  return std::max(left.position, left.angle * farthest_point(halfway));
+}
+
 }  // namespace
+
+double farthest_point(const RodCase& one) { return std::sqrt(1.5 * one.inertia.sum() / one.mass); }
 
 std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& shape, double tolerance) {
   RodRun run = run_solver(one, shape, "solver_radau", tolerance);
@@ -90,6 +102,7 @@ RodReference rod_reference(const RodCase& one, const std::string& shape) {
     reference.X_WO = recorded;
   }
   reference.largest_deflection = largest_deflection(one, reference.X_WO);
+  reference.hand_error = hand_error(halfway, shape, reference.halfway);
   return reference;
 }
 

@@ -55,8 +55,6 @@ double error_as_length(const RodCase& one, double position, double angle) {
   return std::max(position, angle * std::sqrt(0.5 * one.inertia.sum() / one.mass));
 }
 
-double farthest_point(const RodCase& one) { return std::sqrt(1.5 * one.inertia.sum() / one.mass); }
-
 namespace {
 
 /// Header before the poses.
@@ -223,6 +221,7 @@ class Line {
     r.own_reference = own_;
     r.model_error = model_error_;
     r.reference_uncertainty = reference_.uncertainty;
+    r.hand_error = reference_.hand_error;
     r.finite = run.finite;
     r.given_up = run.given_up;
     if (run.given_up) r.wall_us_per_simulated_second = 1e6 * plan_.tolerance_time_limit / case_.duration;

@@ -30,7 +30,4 @@ std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units);
 /// The error that a tolerance refers to, from position and angle times the body's radius of gyration [m].
 double error_as_length(const RodCase& one, double position, double angle);
 
-/// Distance from the centre of mass to the farthest corner of the uniform box that has the case's inertia [m].
-double farthest_point(const RodCase& one);
-
 }  // namespace spring_workbench::benchmark

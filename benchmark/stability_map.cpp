@@ -43,9 +43,6 @@ class CellRun {
   CellRun(const RodCase& one, const std::string& integrator, const std::string& shape, double step,
           const std::vector<motion::PoseSample>& hand, bool hand_goes_on)
       : simulation_(rod_scene(one), rod_settings(one, shape, integrator, step)),
-        explicit_(
-            !dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "map", "integrator"))
-                 ->stiffly_stable()),
         energy_(dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "map", "integrator"))
                     ->energy()),
         p_HO_(one.fork.length * Vector3d::UnitZ() - one.p_OE),
@@ -60,8 +57,6 @@ class CellRun {
     outcome_.steps += report.steps;
     outcome_.stops += report.stops;
     outcome_.fallback += report.steps_fallback;
-    if (explicit_) outcome_.refused += report.steps_fallback + report.stops;
-    left_ = explicit_ && outcome_.refused > 0;
     estimated_ = report.energy_error;
     const bodies::BodyState& object = simulation_.objects()[0];
     const Twist& V = object.V_WO_W;
@@ -69,7 +64,7 @@ class CellRun {
     const double distance = (object.X_WO.translation() - simulation_.fork().X_WH.translation()).norm();
     // A hand that keeps turning throws an object without spring ever faster, so there is no bound.
     outcome_.bounded = outcome_.finite && (hand_goes_on_ || distance < kFarthest + t * (kFlight + kFall * t));
-    return outcome_.bounded && !left_;
+    return outcome_.bounded;
   }
 
   dynamics::Integrator::Energy energy() const { return energy_; }
@@ -86,11 +81,9 @@ class CellRun {
 
  private:
   simulation::Simulation simulation_;
-  bool explicit_;
   dynamics::Integrator::Energy energy_;
   Vector3d p_HO_;  ///< centre of mass in the handle's frame for a rigid fork [m]
   bool hand_goes_on_;
-  bool left_ = false;  ///< an explicit method has left the rod's range: results of the fallback rule are not its own
   StabilityOutcome outcome_;
   double estimated_ = 0.0;  ///< error in energy of the last advance() [J]
 };
@@ -132,7 +125,7 @@ void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRo
   row.energy_judged += outcome.energy_judged;
   row.none_refused += outcome.refused == 0;
   row.held += outcome.held();
-  row.on_its_own += outcome.held() && outcome.stops + outcome.fallback == 0;
+  row.on_its_own += outcome.held_on_its_own();
 }
 
 void keep_the_worst(std::vector<StabilityRun>& failures) {

@@ -54,11 +54,13 @@ struct StabilityOutcome {
       0.0;  ///< estimated energy errors of the steps in these times, for integrators that conserve energy
   bool energy_judged =
       false;        ///< whether the energy could be judged: run completed, and the work of the hand known well enough
-  int refused = 0;  ///< steps rejected or, for an explicit method, stopped or taken by the L-stable rule
+  int refused = 0;  ///< steps rejected
   int steps = 0, stops = 0, fallback = 0;  ///< steps of the integrator; that reached a stop; taken by the L-stable rule
   double processor = 0.0;                  ///< ratio of processor time to simulated time
   bool energy_kept() const { return energy_growth <= 1e-9 && energy_estimated <= EnergyWatch::max_share; }
   bool held() const { return finite && bounded && energy_kept() && refused == 0; }
+  /// Whether it held without the L-stable rule and without the end of the rod's range: by the integrator alone.
+  bool held_on_its_own() const { return held() && stops + fallback == 0; }
 };
 
 /// Whether `a` is worse than `b`: compares finite, then bounded, then energy growth, then rejected steps.
@@ -75,7 +77,7 @@ struct StabilityRow {
   int cannot_fail = 0;  ///< additional cells that cannot fail
   int cells = 0, finite = 0, bounded = 0, energy_judged = 0, energy_kept = 0, none_refused = 0, held = 0;
   int real_time = 0, three_times = 0;  ///< cells with processor time below one and below three times the simulated time
-  int on_its_own = 0;                  ///< cells that pass without a stop and without the fallback
+  int on_its_own = 0;                  ///< cells that hold without a stop and without the fallback
   double steps = 0.0, stops = 0.0, fallback = 0.0;
 };
 

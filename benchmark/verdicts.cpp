@@ -56,11 +56,27 @@ std::string named(const SceneRows& scene) {
   return (scene.rows[0].scene.size() == 1 ? "Scene " : "Rod ") + title_of(scene.rows[0]);
 }
 
+/// What a claim about errors that are finer than what the samples of the hand leave is about.
+std::string integration_alone(const SceneRows& scene, const ErrorTarget& target) {
+  const double left = scene.left_by_samples();
+  if (scene.share_of_deflection(target) >= left) return "";
+  return ", error of integration alone (of the deflection the samples leave " + text(left) + ")";
+}
+
+/// Names those of the peers wanted that are not compared.
+std::string without(const SceneRows& scene, const ErrorTarget& target,
+                    const std::function<bool(const std::string&)>& wanted) {
+  std::string names;
+  for (const std::string& name : scene.not_compared(target, wanted)) names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "" : "; not compared, since their own limit is not known well enough: " + names;
+}
+
 /// Compares ours with the best of some peers: the ratio of run times must be at least `least`, or above 1 if that is 1.
 Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::string& whom,
                 const std::function<bool(const std::string&)>& wanted, double least) {
   const bool every = least == 1.0;
-  Verdict verdict{named(scene) + ", at " + target.text() + ": run time of " + whom + " over ours",
+  Verdict verdict{named(scene) + ", at " + target.text() + integration_alone(scene, target) + ": run time of " + whom +
+                      " over ours",
                   every ? "> 1" : "≥ " + text(least) + "×", ""};
   const double share = scene.share_of_deflection(target);
   const std::vector<Pair> pairs = scene.pairs(target, wanted);
@@ -74,34 +90,39 @@ Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::st
         "not judged: the reference is known to " + text(scene.uncertainty(target)) + "; " + text_of(pairs[0], target);
   } else if (!pairs[0].ratio()) {
     verdict.measured = "no one reaches it";
+  } else if (!scene.anyone_arrives(wanted)) {
+    verdict.measured = "not judged: none of them has a run that arrived";
   } else {
     verdict.measured = text_of(pairs[0], target);
     const double ratio = *pairs[0].ratio();
     verdict.ratio = ratio;
     verdict.result = (every ? ratio > 1.0 : ratio >= least) ? Verdict::Result::pass : Verdict::Result::fail;
   }
+  verdict.measured += without(scene, target, wanted);
   return verdict;
 }
 
-/// Compares ours with all at errors from a tenth of the largest deflection down to the uncertainty left by the samples
-/// (if unknown, a thousandth), two per decade. If the samples leave more than a tenth, only at a tenth.
-Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
-  const ErrorRow& first = scene.rows[0];
-  const double unknown = first.hand_error > 0.0 ? first.hand_error / first.largest_deflection : 1e-3;
-  std::string range = "every error from a tenth of the largest deflection to the " + text(unknown) +
-                      (first.hand_error > 0.0 ? " by which the motion through the samples differs from the hand" : "");
+/// Errors from a tenth of the largest deflection down to `least`, two per decade; only `least` if that is more.
+std::vector<double> errors_down_to(double least) {
   std::vector<double> errors;
-  if (unknown >= kLargestShare) {
-    range = "a tenth of the largest deflection (the motion through the samples differs from the hand by " +
-            text(unknown) + " of it)";
-    errors = {kLargestShare};
-  } else {
-    for (double decade = 0.1; decade > 1e-12; decade *= 0.1) errors.insert(errors.end(), {decade, 0.3 * decade});
-    errors.erase(std::remove_if(errors.begin(), errors.end(), [&](double e) { return e <= 1.001 * unknown; }),
-                 errors.end());
-    errors.push_back(unknown);
-  }
-  Verdict verdict{named(scene) + ", at " + range + ": run time of " + whom + " over ours", "> 1", ""};
+  for (double decade = kLargestShare; decade > 1e-12; decade *= 0.1)
+    errors.insert(errors.end(), {decade, 0.3 * decade});
+  errors.erase(std::remove_if(errors.begin(), errors.end(), [&](double e) { return e <= 1.001 * least; }),
+               errors.end());
+  errors.push_back(least);
+  return errors;
+}
+
+/// Compares ours with all at the errors that the samples allow: from a tenth of the largest deflection down to what
+/// they leave open, or at that alone if it is more. If it is not known, down to a thousandth.
+Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
+  const double left = scene.left_by_samples();
+  const std::vector<double> errors = errors_down_to(left > 0.0 ? left : 1e-3);
+  const std::string range =
+      left > 0.0 ? "at every error that the samples allow, " + text(left) + " of the largest deflection and more"
+                 : "at every error from a tenth to a thousandth of the largest deflection (what "
+                   "the samples leave is not known)";
+  Verdict verdict{named(scene) + ", " + range + ": run time of " + whom + " over ours", "> 1", ""};
   int judged = 0;
   std::string lost;
   for (const double error : errors) {
@@ -128,31 +149,27 @@ std::string text_of(const std::set<double>& factors) {
 
 void one_step_per_sample(const Measurements& m, const std::string& scene, std::vector<Verdict>& out) {
   const std::string unit = scene == "A" ? " m" : " rad";
-  double unknown = 0.0;
   for (const char* hand : {"samples", "function"}) {
     std::set<double> factors;
-    double largest = 0.0;
+    double integration = 0.0, left = 0.0;
     bool finite = true;
     for (const ErrorRow& row : m.scenes) {
       if (row.scene != scene || row.method != kOurs || row.hand != hand || std::abs(row.step - kEvery50Hz) > 1e-9)
         continue;
       factors.insert(row.stiffness_factor);
       finite = finite && row.finite;
-      largest = std::max(largest, row.error);
-      unknown = std::max(unknown, row.hand_error);
+      integration = std::max(integration, row.error);
+      left = std::max(left, row.hand_error);
     }
     if (factors.empty()) continue;
-    const std::string what = std::string(hand) == "samples"
-                                 ? "hand by the poses of a tracker, error of integration"
-                                 : "hand a function of time, of which it is given the pose at the end of each step";
+    const bool sampled = std::string(hand) == "samples";
+    const std::string what = sampled ? "hand by the poses of a 50 Hz tracker, error with what these leave open"
+                                     : "hand a function of time, of which it is given the pose at the end of each step";
+    const std::string figure = text(integration + left) + unit;
     out.push_back(judged("Scene " + scene + ", " + kOurs + ", one step per 20 ms, " + text_of(factors) + "; " + what,
-                         "error ≤ 1e-6" + unit, text(largest) + unit, finite && largest <= 1e-6));
-  }
-  if (unknown > 0.0) {
-    out.push_back(
-        {"Scene " + scene +
-             " by the poses of a 50 Hz tracker: what the motion through the samples adds, which is not the hand's",
-         "none", text(unknown) + unit, Verdict::Result::not_measured});
+                         "error ≤ 1e-6" + unit,
+                         sampled ? figure + ", of which integration " + text(integration) + unit : figure,
+                         finite && integration + left <= 1e-6));
   }
 }
 
@@ -226,9 +243,10 @@ void rods(const Measurements& m, std::vector<Verdict>& out) {
     const bool heavy = name == "heavy_large_bend", soft = name == "soft_6dof";
     if (!heavy && !soft && name != "underdamped" && name != "stiff_6dof") continue;
     const double position = std::max(row.position_error, row.error_between);
-    const std::string claim =
-        "Rod " + row.scene + ", " + kOurs + ", one step per sample, " + text(row.steps_per_second) + " a second";
-    const std::string figure = row.finite ? text(position) + " m, " + text(row.angle_error) + " rad" : "not finite";
+    const std::string claim = "Rod " + row.scene + ", " + kOurs + ", steps of 20 ms at most, error of integration";
+    const std::string figure = row.finite ? text(position) + " m, " + text(row.angle_error) + " rad, with " +
+                                                text(row.steps_per_second) + " steps a second"
+                                          : "not finite";
     out.push_back(judged(claim, heavy ? "within 1e-4 m" : "within 1e-5 m and 1e-4 rad", figure,
                          row.finite && (heavy ? position <= 1e-4 : position <= 1e-5 && row.angle_error <= 1e-4)));
     if (heavy || soft) out.push_back(judged(claim, "within 2e-7 m", figure, row.finite && position <= 2e-7));
@@ -240,11 +258,11 @@ void cost_of_a_step(const Measurements& m, std::vector<Verdict>& out) {
   for (const ErrorRow& row : m.rods) {
     if (row.scene == "soft_6dof" && row.shape == "linear" && row.method == kOurs && row.finite &&
         std::abs(row.step - kEvery50Hz) < 1e-9) {
-      ours = row.wall_us_per_simulated_second / row.steps_per_second;
+      ours = kEvery50Hz * row.wall_us_per_simulated_second;
     }
   }
   const double peer = mujoco_step(m);
-  const std::string claim = "One full step of the rod (soft_6dof, linear, exponential, one per sample, with its hand)";
+  const std::string claim = "20 ms of the rod (soft_6dof, linear, exponential, steps of 20 ms at most, with its hand)";
   const std::string target = "≤ 2 MuJoCo RK4 steps of scene C";
   if (ours > 0.0 && std::isfinite(peer)) {
     out.push_back(judged(claim, target, text(ours) + " µs; MuJoCo " + text(peer) + " µs", ours <= 2.0 * peer));
@@ -271,7 +289,8 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
       not_above += row.error_over_tolerance <= 3.0;
       within += row.error_over_tolerance <= 3.0 && row.error_over_tolerance >= 1.0 / 3.0;
     }
-    const std::string what = has_own_law(method) ? ", all rods, of its own limit" : ", all rods";
+    const std::string what = std::string(has_own_law(method) ? ", all rods, of its own limit" : ", all rods") +
+                             ", at the outputs, angles by the radius of gyration";
     out.push_back(judged("Tolerance mode, " + method + what,
                          "every error within a factor of 3 of what was asked, both ways",
                          std::to_string(within) + " of " + std::to_string(count) + "; " + std::to_string(not_above) +
@@ -308,11 +327,11 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
     if (sum.cells == 0) continue;
     const auto kind = validation::named<dynamics::IntegratorKind>(name, "benchmark", "integrator");
     const std::string of_cells = " of " + std::to_string(sum.cells) + " cells";
-    const std::string figure = std::to_string(sum.held) + of_cells + " hold, " + std::to_string(sum.cells - sum.held) +
-                               " do not; energy was judged to the end in " + std::to_string(sum.energy_judged) + "; " +
-                               std::to_string(sum.on_its_own) + " hold without a stop or fallback; of " +
-                               text(sum.steps) + " steps " + text(sum.fallback) + " by the fallback, " +
-                               text(sum.stops) + " at a stop";
+    const std::string figure =
+        std::to_string(sum.held) + of_cells + " hold, " + std::to_string(sum.on_its_own) +
+        " of them on their own, without a stop or the fallback; energy was judged to the end in " +
+        std::to_string(sum.energy_judged) + "; of " + text(sum.steps) + " steps " + text(sum.fallback) +
+        " by the fallback, " + text(sum.stops) + " at a stop";
     const std::string claim = "Stability map, " + name;
     const bool stiffly_stable = dynamics::make_integrator(kind)->stiffly_stable();
     if (has_own_law(name)) {
@@ -326,10 +345,7 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
                  "judged while the hand turns, and where its work is not known to a hundredth)",
                  figure, sum.held == sum.cells));
     } else {
-      out.push_back({claim +
-                         " (a baseline with a stability limit: a cell with a step by the fallback or at a stop does "
-                         "not hold, as it does for the others)",
-                     "none", figure, Verdict::Result::not_measured});
+      out.push_back({claim + " (a baseline with a stability limit)", "none", figure, Verdict::Result::not_measured});
       continue;
     }
     out.push_back(judged(claim + ": processor time",
@@ -339,15 +355,20 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// Cost of changes at run time, for information only.
+/// Cost of changes at run time.
 void cost_of_a_change(const Measurements& m, std::vector<Verdict>& out) {
-  std::string figure;
+  constexpr double kMost = 3.0;  // times as much as without a change
+  double usual = 0.0;
   for (const StepCost& cost : m.step_costs) {
-    if (cost.shape != "linear" || cost.part.rfind("advance", 0) != 0) continue;
-    figure += (figure.empty() ? "" : ", ") + cost.part + ' ' + text(1e-3 * cost.nanoseconds) + " µs";
+    if (cost.shape == "linear" && cost.part == "advance by 20 ms") usual = cost.nanoseconds;
   }
-  if (figure.empty()) return;
-  out.push_back({"Simulation, default fork: 20 ms, and after a change", "none", figure, Verdict::Result::not_measured});
+  for (const StepCost& cost : m.step_costs) {
+    if (cost.shape != "linear" || cost.part.rfind("advance after", 0) != 0 || usual == 0.0) continue;
+    const double ratio = cost.nanoseconds / usual;
+    out.push_back(judged(
+        "Simulation, default fork, " + cost.part + ", over one without", "at most " + text(kMost) + " times",
+        text(1e-3 * cost.nanoseconds) + " over " + text(1e-3 * usual) + " µs = " + text(ratio) + "×", ratio <= kMost));
+  }
 }
 
 void shapes(const Measurements& m, std::vector<Verdict>& out) {

@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 with open(sys.argv[1]) as file:
-    rows = list(csv.DictReader(file))
+    rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
 figure, axes = plt.subplots(1, 3, figsize=(11, 3.2))
 for axis, (column, label) in zip(
     axes, [("step_us", "step of 20 ms [µs]"), ("start_ms", "start [ms]"), ("memory_MB", "memory [MB]")]

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Runs the node `load` (main.cpp) against manipulation and tracker_driver, one case after the other, on a ROS master
-of its own, and writes the tables into the document between its marks. scripts/load calls it."""
+of its own, and writes the tables scenes.csv and load.csv, which doc/load.md quotes. scripts/load calls it."""
 import argparse
+import csv
 import itertools
 import math
 import os
@@ -114,8 +115,10 @@ def measure(master, folder, scene, contact, hands, rate, physics_rate, length):
         master.forget()
 
 
-def table(head, rows):
-    return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows])
+def write(path, header, head, rows):
+    with path.open("w", encoding="utf-8", newline="") as file:
+        file.write(header)
+        csv.writer(file, lineterminator="\n").writerows([head, *rows])
 
 
 def scenes_table(master, folder, length):
@@ -125,7 +128,7 @@ def scenes_table(master, folder, length):
             f = measure(master, folder, ROOT / "scenes" / (name + ".urdf"), contact, 1, 120, 100, min(length, 5.0))
             rows.append([name, contact, f[10], f[11], "%.0f" % float(f[3]), "%.0f" % float(f[0]), "%.1f" % float(f[1])])
             print("| " + " | ".join(rows[-1]) + " |", flush=True)
-    return table(["scene", "contact", "active", "skipped", "cycle, median [µs]", "start [ms]", "resident [MB]"], rows)
+    return ["scene", "contact", "active", "skipped", "cycle 50 % [µs]", "start [ms]", "resident [MB]"], rows
 
 
 def load_table(master, folder, length):
@@ -150,25 +153,22 @@ def load_table(master, folder, length):
                 figures = ["–"] * 10
             rows.append([name, str(hands), str(rate), str(physics_rate), *figures])
             print("| " + " | ".join(rows[-1]) + " |", flush=True)
-    return table(
-        [
-            "scene",
-            "hands",
-            "tracker [Hz]",
-            "manipulation [Hz]",
-            "cycle 50 % [µs]",
-            "99 %",
-            "99.9 %",
-            "publishing 99 % [µs]",
-            "deadlines missed",
-            "latency 50 % [ms]",
-            "99 %",
-            "longest",
-            "processor [%]",
-            "resident [MB]",
-        ],
-        rows,
-    )
+    return [
+        "scene",
+        "hands",
+        "tracker [Hz]",
+        "manipulation [Hz]",
+        "cycle 50 % [µs]",
+        "cycle 99 % [µs]",
+        "cycle 99.9 % [µs]",
+        "publishing 99 % [µs]",
+        "deadlines missed",
+        "latency 50 % [ms]",
+        "latency 99 % [ms]",
+        "latency longest [ms]",
+        "processor [%]",
+        "resident [MB]",
+    ], rows
 
 
 def machine():
@@ -184,20 +184,20 @@ def machine():
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--length", type=float, default=15.0)
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "doc/load.md")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "benchmark/results/load")
+    parser.add_argument("--commit", default="not given")
     arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    header = "# machine: %s\n# date: %s\n# command: scripts/load --length %g\n# commit: %s\n" % (
+        machine(),
+        time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()),
+        arguments.length,
+        arguments.commit,
+    )
     with tempfile.TemporaryDirectory() as folder, Master() as master:
-        sections = {
-            "scenes": scenes_table(master, pathlib.Path(folder), arguments.length),
-            "load": load_table(master, pathlib.Path(folder), arguments.length),
-            "machine": machine(),
-        }
-    text = (ROOT / "doc/load.md").read_text()
-    for name, content in sections.items():
-        mark = "<!-- %s -->" % name
-        before, _, after = text.split(mark)
-        text = before + mark + "\n" + content + "\n" + mark + after
-    arguments.out.write_text(text)
+        for name, make in [("scenes", scenes_table), ("load", load_table)]:
+            head, rows = make(master, pathlib.Path(folder), arguments.length)
+            write(arguments.out / (name + ".csv"), header, head, rows)
     return 0
 
 

@@ -4,11 +4,11 @@ document is shown:
 
     in 12 µm<!-- max penetration_um of contact_extremes.csv where extreme=stack of ten --> at most
 
-`the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers), or
-match a pattern (`claim~^Rod .* samples`); `the` wants one row alone; `count` is how many rows have anything in that
-column. `times X` at the end gives another unit. The number is the last one before the marker, and must be what the
-table says, rounded to as many digits as it has. `run` is no number but `quick` or `full`: how the report was run that
-wrote the table, by the command in its header.
+`the`, `max`, `min`, `mean` or `sum` of a column, over the rows where all the cells named are as said (numbers as
+numbers), or match a pattern (`claim~^Rod .* samples`); `the` wants one row alone; `count` is how many rows have
+anything in that column. `times X` at the end gives another unit. The number is the last one before the marker, and must
+be what the table says, rounded to as many digits as it has. `run` is no number but `quick` or `full`: how the report
+was run that wrote the table, by the command in its header.
 
     of a quick<!-- run of verdicts.csv --> run
 
@@ -35,7 +35,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS = "benchmark/results"
 DOCUMENTS = ["README.md", "benchmark/README.md", "benchmark/contact/README.md", "doc/*.md"]
-VALUE = r"(the|max|min|mean|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?"
+VALUE = r"(the|max|min|mean|sum|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?"
 MARKER = re.compile(rf"<!--\s*{VALUE}(?:\s+times\s+([-+.\deE]+))?\s*-->")
 ALL = re.compile(r"<!--\s*all\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?\s*-->")
 LESS = re.compile(rf"<!--\s*less\s+{VALUE}\s+than\s+{VALUE}\s*-->")
@@ -64,6 +64,12 @@ def run_of(path):
     if command is None:
         raise Stale(f"{path.name} does not say how it was made")
     return "quick" if "--quick" in command else "full"
+
+
+def commit_of(path):
+    """The commit that a table's header names; None without one."""
+    with path.open(encoding="utf-8") as file:
+        return next((line[len("# commit: ") :].strip() for line in file if line.startswith("# commit: ")), None)
 
 
 def same(cell, wanted):
@@ -116,7 +122,7 @@ def value_of(kind, column, table, where, times, results):
         values = [float(row[column]) for row in rows]
     except ValueError as error:
         raise Stale(f"{column} of {table} is no number") from error
-    of_kind = {"the": max, "max": max, "min": min, "mean": lambda v: sum(v) / len(v)}
+    of_kind = {"the": max, "max": max, "min": min, "sum": sum, "mean": lambda v: sum(v) / len(v)}
     return of_kind[kind](values) * float(times or 1.0)
 
 

@@ -1,7 +1,7 @@
-// report [--quick] [--out DIR]
-// report [--quick] --shard I/N [--queue DIR] > PART
+// report [--quick] [--out DIR] [--commit NAME]
+// report [--quick] --shard I/N [--queue DIR] [--commit NAME] > PART
 // report [--out DIR] --merge PART...
-// report [--quick] [--out DIR] --scene SCENE (--bag FILE | --motion FILE...) [--settings FILE]
+// report [--quick] [--out DIR] --scene SCENE (--bag FILE | --motion FILE...) [--settings FILE] [--commit NAME]
 //
 // Measures error against run time of our integrators, shape models and the peers that were found, and the stability
 // map; writes CSV, pictures, one page and a table of verdicts. Or does so for a recording of the user.

@@ -63,6 +63,9 @@ ReportOptions parse_report_options(int argc, char** argv) {
       *field = argv[++i];
     } else if (argument == "--shard") {
       options.shard = shard_of(has_value ? argv[++i] : "");
+    } else if (argument == "--commit") {
+      if (!has_value) validation::refuse(kWhere, "--commit", "", "the name of a commit");
+      options.commit = argv[++i];
     } else if (argument == "--queue") {
       if (!has_value) validation::refuse(kWhere, "--queue", "", "a folder that all shards share, empty at first");
       options.queue = argv[++i];
@@ -71,9 +74,8 @@ ReportOptions parse_report_options(int argc, char** argv) {
       while (i + 1 < argc && std::string(argv[i + 1]).rfind("--", 0) != 0) options.parts.emplace_back(argv[++i]);
     } else {
       validation::refuse(kWhere, "argument", argument,
-                         "one of --quick, --out DIR, --shard I/N, --queue DIR, --merge PART..., --scene FILE, --bag "
-                         "FILE, --motion FILE, "
-                         "--settings FILE");
+                         "one of --quick, --out DIR, --commit NAME, --shard I/N, --queue DIR, --merge PART..., "
+                         "--scene FILE, --bag FILE, --motion FILE, --settings FILE");
     }
   }
   check_recording(options);

@@ -151,7 +151,11 @@ SOLVERS = "solver_"  # how general methods on our equation of motion are called
 
 
 def power_of_ten(value):
-    return "$10^{%d}$" % round(math.log10(value)) if value >= 1e4 else f"{value:g}"
+    if value < 1e4:
+        return f"{value:g}"
+    power = math.floor(math.log10(value) + 1e-9)
+    first = value / 10.0**power
+    return f"$10^{{{power}}}$" if abs(first - 1.0) < 1e-9 else f"${first:g} \\cdot 10^{{{power}}}$"
 
 
 def load_name(mass):
@@ -174,6 +178,11 @@ def rod_panel(axes, rows, name):
         if r["method"] == PAPER
     ]
     draw_line(axes, paper, color="black", marker="*", linewidth=1.2, markersize=6, linestyle=":", label=PAPER)
+    left = float(here[0]["hand_error"]) / float(here[0]["largest_deflection"])
+    if left > 0.0:
+        axes.axhline(left, color="#7f7f7f", linestyle="--", linewidth=1.2, label="left open by the samples")
+        place = dict(transform=axes.transAxes, color="#5f5f5f", fontsize=9)
+        axes.text(0.03, 0.03, f"samples leave {left:.3g}", **place)
     factor, mass = float(here[0]["stiffness_factor"]), float(here[0]["mass"])
     fork = "default fork" if factor == 1.0 else f"{power_of_ten(factor)} times as stiff"
     log_axes(axes, title=f"{fork}, {load_name(mass)}", ylim=(1e-11, 10.0))
@@ -347,14 +356,16 @@ def share_panel(axes, share, columns, lines):
 
 def shares(rows, line_of, column_of):
     """The fraction of cells that pass, by row and column, and the numbers."""
-    held, cells = defaultdict(int), defaultdict(int)
+    held, cells, alone = defaultdict(int), defaultdict(int), 0
     for row in rows:
         place = line_of(row), column_of(row)
         held[place] += int(row["held"])
         cells[place] += int(row.get("cells", 1))
-    return {
-        place: held[place] / cells[place] for place in cells if cells[place]
-    }, f"{sum(held.values())} of {sum(cells.values())} cells hold"
+        alone += int(row.get("on_its_own", 0))
+    title = f"{sum(held.values())} of {sum(cells.values())} cells hold"
+    if "on_its_own" in rows[0]:
+        title += f",\n{alone} of them on their own"
+    return {place: held[place] / cells[place] for place in cells if cells[place]}, title
 
 
 def amount(value):

@@ -147,7 +147,7 @@ void report_recording(const ReportOptions& options, const std::string& command, 
   const RecordingTable table = measure_recording(options, log);
   const std::string path = std::filesystem::path(options.out) / "recording.csv", csv = recording_csv(table);
   std::ofstream file(path);
-  file << as_csv_header(run_facts(command, {})) << csv;
+  file << as_csv_header(run_facts(command, options.commit, {})) << csv;
   file.close();
   if (!file) throw std::runtime_error("cannot write " + path);
   out << csv;

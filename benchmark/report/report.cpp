@@ -128,7 +128,7 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   if (!merging) {
     part.shard = shard;
     part.quick = quick;
-    part.facts = run_facts(command, peers);
+    part.facts = run_facts(command, options.commit, peers);
     part.warning = load_warning();
   }
   log << as_csv_header(part.facts);

@@ -72,13 +72,14 @@ std::string load_warning() {
   return text.str();
 }
 
-std::vector<RunFact> run_facts(const std::string& command, const Peers& peers) {
+std::vector<RunFact> run_facts(const std::string& command, const std::string& commit, const Peers& peers) {
   return {{"machine", machine()},
           {"load", load()},
           {"compiler", SPRING_WORKBENCH_COMPILER},
           {"flags", SPRING_WORKBENCH_FLAGS},
           {"date", now()},
           {"command", command},
+          {"commit", commit},
           {"peers found", list(peers.found)},
           {"peers not found", list(peers.not_found)}};
 }

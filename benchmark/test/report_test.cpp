@@ -88,6 +88,7 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
       {"--shard 1/2 --out /tmp", {"--shard, --out", "both", "one of the two"}},
       {"--shard 1/2 --queue", {"--queue", "missing", "folder"}},
       {"--queue .", {"--queue", ".", "together with --shard"}},
+      {"--commit", {"--commit", "missing", "name"}},
       {"--merge", {"--merge", "missing", "files"}},
       {"--quick --merge /dev/null", {"--merge", "--quick", "the files"}},
       {"--out ''", {"--out", "missing", "folder"}},
@@ -123,7 +124,8 @@ TEST(Report, QuickByTwoShardsOfAQueueWritesAllThatIsPromised) {
   const test_support::TemporaryFolder folder;
   const std::string queue = folder.path("queue"), one = folder.path("1"), two = folder.path("2");
   std::filesystem::create_directory(queue);
-  const std::string program = "'" + test_support::program("report") + "'", quick = " --quick --queue '" + queue + "'";
+  const std::string program = "'" + test_support::program("report") + "'",
+                    quick = " --quick --commit abc123 --queue '" + queue + "'";
   const Outcome shards = report(quick + " --shard 1/2 2>&1 >'" + one + "' & " + program + quick + " --shard 2/2 >'" +
                                 two + "' 2>/dev/null; wait $! #");
   ASSERT_EQ(shards.code, 0) << shards.output;
@@ -135,7 +137,10 @@ TEST(Report, QuickByTwoShardsOfAQueueWritesAllThatIsPromised) {
     std::ifstream file(folder.path("out/" + name));
     EXPECT_EQ(file.good(), name != "stability_counts.csv") << name;  // which a quick report leaves out
     int lines = 0;
-    for (std::string line; std::getline(file, line);) lines += line[0] != '#';
+    bool has_commit = name == "report.html" || name == "stability_counts.csv";
+    for (std::string line; std::getline(file, line); has_commit = has_commit || line == "# commit: abc123")
+      lines += line[0] != '#';
+    EXPECT_TRUE(has_commit) << name;
     EXPECT_TRUE(lines > 1 || name == "stability_counts.csv" || name == "stability_failures.csv") << name;
   }
   for (const char* word : {"PASS", "FAIL", "report --quick", "Stability map, exponential"})

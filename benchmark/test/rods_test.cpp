@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fstream>
 #include <map>
 #include <random>
@@ -68,6 +69,37 @@ TEST(RodCases, ReferenceOfAStretchingForkOnAHandAtRestIsTheExactOscillator) {
       EXPECT_NEAR(poses[i].translation().z() - (one.fork.length - one.p_OE.z()), extension, 1e-10) << zeta << ' ' << t;
     }
   }
+}
+
+TEST(RodCases, WhatTheSamplesLeaveIsTheDistanceFromTheExactMotionOnTheHandItself) {
+  // A single spring on a hand that trembles along it with A sin(ωₕ t), in closed form.
+  constexpr double kTremor = 1e-3, kRate = 2.0 * 3.14159265358979324 * 10.0;
+  RodCase one = case_called("stretch_only", 1.0);
+  one.fork.damping_ratio = {0.1, 0.1, 0.1};
+  for (auto* hand : {&one.hand, &one.fine_hand}) {
+    for (motion::PoseSample& sample : *hand)
+      sample.X = make_transform(Quaterniond::Identity(), {0.0, 0.0, kTremor * std::sin(kRate * sample.t)});
+  }
+  using Complex = std::complex<double>;
+  const double k = one.fork.stiffness.stretch, m = one.mass, omega = std::sqrt(k / m), sigma = 0.1 * omega;
+  const double root = std::sqrt(omega * omega - sigma * sigma), sag = m * 9.81 / k;
+  const Complex driven = kTremor * kRate * kRate / Complex(omega * omega - kRate * kRate, 2.0 * sigma * kRate);
+  // The free oscillation, with which the extension and its rate begin at zero.
+  const double a = sag - driven.imag(), b = (sigma * a - kRate * driven.real()) / root;
+  const RodCase halfway = with_halfway_outputs(one);
+  const auto times = output_times(halfway);
+  const RodReference reference = rod_reference(one, "linear");
+  double left = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double t = times[i], extension = -sag + (driven * std::exp(Complex(0.0, kRate * t))).imag() +
+                                           std::exp(-sigma * t) * (a * std::cos(root * t) + b * std::sin(root * t));
+    const double z = kTremor * std::sin(kRate * t) + one.fork.length - one.p_OE.z() + extension;
+    left = std::max(left, std::abs(reference.halfway[i].translation().z() - z));
+  }
+  EXPECT_GT(left, 1e-6);
+  EXPECT_NEAR(reference.hand_error, left, 0.02 * left);
+  one.fine_hand.clear();
+  EXPECT_EQ(rod_reference(one, "linear").hand_error, 0.0);
 }
 
 TEST(RodCases, ReferenceAgreesWithRungeKuttaAtATinyStepInEveryShape) {
@@ -368,16 +400,30 @@ TEST(StabilityMap, EnergyIsJudgedWhileTheHandTremblesAndNotWhileItTurns) {
   }
 }
 
-TEST(StabilityMap, ExplicitMethodsHoldBelowTheirLimitOnOneSpringAndFailAboveIt) {
+TEST(StabilityMap, ExplicitMethodsHoldOnTheirOwnBelowTheirLimitOnOneSpringAndNotAboveIt) {
   // ζ = 1: semi-implicit Euler with explicit damping to ω h = 0.828, RK4 to 2.785; the paper's scheme has no
   // limit.
   for (const auto& [name, limit] : {std::pair{"semi_implicit_euler", 0.828}, std::pair{"rk4", 2.785}}) {
-    EXPECT_TRUE(run_cell(name, "linear", cell_with(0.5 * limit, MapTail::millimetre)).held()) << name;
-    EXPECT_FALSE(run_cell(name, "linear", cell_with(3.0 * limit, MapTail::rest)).held()) << name;
+    EXPECT_TRUE(run_cell(name, "linear", cell_with(0.5 * limit, MapTail::millimetre)).held_on_its_own()) << name;
+    EXPECT_FALSE(run_cell(name, "linear", cell_with(3.0 * limit, MapTail::rest)).held_on_its_own()) << name;
   }
   for (const double omega_step : {0.5, 5.0, 500.0}) {
     EXPECT_TRUE(run_cell("paper", "linear", cell_with(omega_step, MapTail::lissajous)).held()) << omega_step;
   }
+}
+
+TEST(StabilityMap, AStepByTheFallbackOrAtAStopHoldsButNotOnItsOwnWhateverTheIntegrator) {
+  StabilityOutcome outcome;
+  EXPECT_TRUE(outcome.held() && outcome.held_on_its_own());
+  for (int StabilityOutcome::*counter : {&StabilityOutcome::stops, &StabilityOutcome::fallback}) {
+    StabilityOutcome counted;
+    counted.*counter = 1;
+    EXPECT_TRUE(counted.held() && !counted.held_on_its_own());
+  }
+  // Far above its limit RK4 leaves the rod's range; that counts apart, not as a refused step.
+  const StabilityOutcome rk4 = run_cell("rk4", "linear", cell_with(30.0, MapTail::rest));
+  EXPECT_GT(rk4.stops + rk4.fallback, 0);
+  EXPECT_EQ(rk4.refused, 0);
 }
 
 TEST(StabilityMap, ManyHalvedStepsInALongFallAddNoEnergy) {

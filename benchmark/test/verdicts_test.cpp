@@ -223,20 +223,37 @@ TEST(Verdicts, BySamplesEveryErrorThatTheyAllowIsJudged) {
   }
 }
 
-TEST(Verdicts, WhereTheSamplesLeaveMoreThanATenthOfTheDeflectionUnknownATenthIsJudged) {
-  for (const auto& [unknown, at_a_tenth] : {std::pair{0.09, false}, std::pair{0.11, true}, std::pair{144.0, true}}) {
+TEST(Verdicts, WhereTheSamplesLeaveMoreThanATenthOfTheDeflectionWhatTheyLeaveIsJudged) {
+  for (const auto& [left, lost] : {std::pair{0.09, "of 2 lost at 0.1: "}, std::pair{0.11, "of 1 lost at 0.11: "},
+                                   std::pair{144.0, "of 1 lost at 144: "}}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes, 1e5);
     add_line("hand_rk4", 1.0, 1.0, measured.scenes, 1e5);
     for (ErrorRow& row : measured.scenes) {
       row.hand = "samples";
-      row.hand_error = unknown * kDeflection;
+      row.hand_error = left * kDeflection;
     }
-    const Verdict verdict =
-        verdict_on(measured, at_a_tenth ? "at a tenth of the largest deflection" : "at every error");
+    const Verdict verdict = verdict_on(measured, "at every error that the samples allow");
     EXPECT_EQ(verdict.result, kFail) << verdict.measured;
-    EXPECT_EQ(verdict.measured.rfind(at_a_tenth ? "of 1 lost at 0.1: " : "of 2 lost at 0.1: ", 0), 0U)
-        << verdict.measured;
+    EXPECT_EQ(verdict.measured.rfind(lost, 0), 0U) << verdict.measured;
+  }
+}
+
+TEST(Verdicts, WhatIsFinerThanTheSamplesLeaveIsCalledAnErrorOfIntegrationAlone) {
+  for (const auto& [left, alone] : {std::pair{0.9e-3, false}, std::pair{1.1e-3, true}, std::pair{0.0, false}}) {
+    for (const char* hand : {"samples", "function"}) {
+      Measurements measured;
+      add_line("exponential", 1.0, 10.0, measured.scenes);
+      add_line("hand_rk4", 1.0, 1e3, measured.scenes);
+      for (ErrorRow& row : measured.scenes) {
+        row.hand = hand;
+        row.hand_error = left * kDeflection;
+      }
+      const bool is_alone = alone && measured.scenes[0].hand == "samples";
+      const Verdict verdict = verdict_on(measured, "at 0.001 of the largest deflection", "every peer");
+      EXPECT_EQ(verdict.claim.find("error of integration alone") != std::string::npos, is_alone) << verdict.claim;
+      EXPECT_EQ(verdict.result, kPass);
+    }
   }
 }
 
@@ -258,6 +275,66 @@ TEST(Verdicts, APeerWhoseOwnLimitIsNotKnownWellEnoughIsNotCompared) {
     // Next to one that is known, it is excluded.
     add_line("ode_erp_cfm", 1.0, 100.0, measured.scenes);
     EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "the best engine"), kFail);
+  }
+}
+
+TEST(Verdicts, WhoIsNotComparedIsNamed) {
+  Measurements measured;
+  add_line("exponential", 1.0, 10.0, measured.scenes);
+  add_line("bullet_spring2", 1.0, 1e3, measured.scenes);
+  for (ErrorRow& row : measured.scenes) {
+    row.own_reference = !row.ours;
+    row.reference_uncertainty = row.ours ? 0.0 : 0.6e-6 * kAmplitude;
+  }
+  add_line("ode_erp_cfm", 1.0, 1e3, measured.scenes);
+  const auto told = [&](const std::string& at) { return verdict_on(measured, at, "the best engine").measured; };
+  EXPECT_NE(told("at 1e-06 of the amplitude").find("known well enough: bullet_spring2"), std::string::npos);
+  EXPECT_EQ(told("at 0.001 of the largest deflection").find("not compared"), std::string::npos);
+}
+
+TEST(Verdicts, WherePeersNeverArriveNothingIsJudged) {
+  for (const bool arrives : {false, true}) {
+    Measurements measured;
+    add_line("exponential", 1.0, 10.0, measured.scenes);
+    add_line("ode_erp_cfm", 1.0, 1e3, measured.scenes);
+    for (ErrorRow& row : measured.scenes) row.finite = row.ours || (arrives && row.error_over_hand_amplitude > 1e-3);
+    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), arrives ? kPass : kNone);
+  }
+}
+
+TEST(Verdicts, NothingIsComparedBelowWhatTheReferenceResolves) {
+  // The other's line begins at 1e-10 of the amplitude; the reference is known to 1e-8.
+  Measurements measured;
+  add_line("exponential", 1.0, 10.0, measured.scenes);
+  add_line("hand_rk4", 1.0, 3.0, measured.scenes, 1e-4);
+  for (ErrorRow& row : measured.scenes) row.reference_uncertainty = 1e-8 * kAmplitude;
+  const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "every peer");
+  EXPECT_NE(verdict.measured.find("at 2e-08, since"), std::string::npos) << verdict.measured;
+  EXPECT_NEAR(verdict.ratio.value_or(0.0), 3.0 * std::pow(1e-4, -0.25) / (10.0 * std::pow(2e-2, -0.25)), 1e-6);
+}
+
+TEST(Verdicts, OnATrackedHandTheErrorIsJudgedWithWhatTheSamplesLeave) {
+  for (const auto& [integration, left, held] :
+       {std::tuple{0.5e-6, 0.4e-6, true}, std::tuple{1e-17, 1.1e-6, false}, std::tuple{0.6e-6, 0.5e-6, false}}) {
+    Measurements measured;
+    ErrorRow row;
+    row.scene = "A";
+    row.method = "exponential";
+    row.hand = "samples";
+    row.step = 0.02;
+    row.finite = row.ours = true;
+    row.error = integration;
+    row.hand_error = left;
+    measured.scenes = {row};
+    EXPECT_EQ(result_of(measured, "Scene A, exponential, one step per 20 ms"), held ? kPass : kFail);
+  }
+}
+
+TEST(Verdicts, TwentyMillisecondsAfterAChangeMayCostThreeTimesAsMuch) {
+  for (const auto& [nanoseconds, held] : {std::pair{2.9e4, true}, std::pair{3.1e4, false}}) {
+    Measurements measured;
+    measured.step_costs = {{"linear", 6, "advance by 20 ms", 1e4}, {"linear", 6, "advance after a grasp", nanoseconds}};
+    EXPECT_EQ(result_of(measured, "advance after a grasp"), held ? kPass : kFail);
   }
 }
 
@@ -309,6 +386,9 @@ TEST(Verdicts, OneCellThatFailsByTheMapsOwnRuleIsEnoughForTheMapNotToHold) {
   EXPECT_EQ(result_of(measured, "Stability map, exponential: processor time"), kFail);
   --measured.map.rows[1].held;
   EXPECT_EQ(result_of(measured, "Stability map, exponential"), kFail);
+  measured.map.rows[0].on_its_own = 5;
+  const std::string figure = verdict_on(measured, "Stability map, exponential").measured;
+  EXPECT_EQ(figure.rfind("79 of 80 cells hold, 5 of them on their own", 0), 0U) << figure;
   measured.map.rows[0].integrator = measured.map.rows[1].integrator = "rk4";
   EXPECT_EQ(result_of(measured, "Stability map, rk4"), kNone);
 }
@@ -391,7 +471,7 @@ TEST(Verdicts, TheRodsOfWhichMoreWasAskedAreJudgedByThatToo) {
     measured.rods = {row};
     int passed = 0;
     for (const Verdict& verdict : verdicts(measured)) {
-      passed += verdict.claim == "Rod recorded_soft_6dof, exponential, one step per sample, 100 a second" &&
+      passed += verdict.claim == "Rod recorded_soft_6dof, exponential, steps of 20 ms at most, error of integration" &&
                 verdict.result == kPass;
     }
     EXPECT_EQ(passed, held ? 2 : 1);

@@ -168,8 +168,8 @@ void simulated(int stations, std::ostream& out) {
   device.join();
   std::filesystem::remove_all(folder);
   for (std::size_t i = 0; i < jitter.size(); ++i) {
-    jitter[i].write("simulator, station " + std::to_string(i + 1) + " of " + std::to_string(stations),
-                    "pseudo-terminal", out);
+    jitter[i].write("simulator station " + std::to_string(i + 1) + " of " + std::to_string(stations), "pseudo-terminal",
+                    out);
   }
 }
 

@@ -29,6 +29,11 @@ class Documents(unittest.TestCase):
         )
         self.assertGreaterEqual(marked, 20)
 
+    def test_tables_of_one_run_are_of_one_commit(self):
+        tables = sorted((ROOT / numbers.RESULTS).glob("*.csv"))
+        commits = {numbers.commit_of(table) for table in tables}
+        self.assertEqual(len(commits), 1, commits)
+
 
 class Markers(unittest.TestCase):
     def setUp(self):
@@ -50,6 +55,7 @@ class Markers(unittest.TestCase):
             "3 of them: 10 <!-- the depth [um] of t.csv where depth [um]=9.6, n=3 -->",
             "2<!-- count n of t.csv where kind=stack --> of 3<!-- count kind of t.csv -->",
             "a remark <!-- without a table --> 5",
+            "22.0<!-- sum depth [um] of t.csv where kind=stack --> of 43<!-- sum depth [um] of t.csv -->",
         ):
             self.assertEqual(self.check(text), (text, []))
 
@@ -98,6 +104,12 @@ class Markers(unittest.TestCase):
             self.assertEqual((same, len(wrong)), (bad, 1))
         (self.results / "t.csv").write_text(TABLE, encoding="utf-8")
         self.assertEqual(len(self.check("full<!-- run of t.csv -->")[1]), 1)
+
+    def test_the_header_names_the_commit(self):
+        table = self.results / "t.csv"
+        self.assertIsNone(numbers.commit_of(table))
+        table.write_text("# commit: abc123\n" + TABLE, encoding="utf-8")
+        self.assertEqual(numbers.commit_of(table), "abc123")
 
     def test_stale_numbers_are_reported_and_updated(self):
         text = (

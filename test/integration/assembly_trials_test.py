@@ -21,10 +21,10 @@ def run(*arguments):
 class AssemblyTrials(unittest.TestCase):
     def test_scores_table_and_hand(self):
         with tempfile.TemporaryDirectory() as folder:
-            files = {name: os.path.join(folder, name) for name in ["trials.csv", "table.md", "hand.tum", "run.csv"]}
+            files = {name: os.path.join(folder, name) for name in ["trials.csv", "table.csv", "hand.tum", "run.csv"]}
             arguments = ["--scene", SCENE, "--settings", SETTINGS, "--tool", "direct", "--trials", "2", "--seed", "3"]
             done = run(
-                *arguments, "--out", files["trials.csv"], "--table", files["table.md"], "--record", files["hand.tum"]
+                *arguments, "--out", files["trials.csv"], "--table", files["table.csv"], "--record", files["hand.tum"]
             )
             self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
             text = pathlib.Path(files["trials.csv"]).read_text()
@@ -36,9 +36,11 @@ class AssemblyTrials(unittest.TestCase):
             for row in rows:
                 self.assertEqual((row["placed"], row["targets"], row["drops"]), ("7", "7", "0"))
             self.assertNotEqual(rows[0]["time_s"], rows[1]["time_s"])
-            table = pathlib.Path(files["table.md"]).read_text().splitlines()
-            self.assertEqual(len(table), 3)
-            self.assertTrue(table[2].startswith("| `direct` | 2 | 100 %"), table[2])
+            table = pathlib.Path(files["table.csv"]).read_text().splitlines()
+            self.assertEqual(len(table), 2)
+            self.assertTrue(table[0].startswith("tool,trials,completed,placed,time [s]"), table[0])
+            self.assertTrue(table[1].startswith("direct,2,100 %"), table[1])
+            self.assertEqual(table[0].count(","), table[1].count(","))
             # The recorded hand does the same work again.
             again = subprocess.run(
                 [

@@ -68,7 +68,7 @@ void run(const Options& options) {
         write_file(path_of(options.record, h), motion_text(trial.motion, h));
     }
   }
-  if (!options.table.empty()) write_file(options.table, markdown_table(all));
+  if (!options.table.empty()) write_file(options.table, means_csv(all));
   if (options.out.empty()) {
     std::cout << csv;
   } else {

@@ -18,7 +18,7 @@ struct Options {
   assembly::OperatorSettings hand;          ///< how the operator moves, apart from the seed
   double time_limit = 300.0;                ///< limit of a trial [s]
   std::string out;                          ///< path of the CSV file; empty: none
-  std::string table;                        ///< path of the Markdown table; empty: none
+  std::string table;                        ///< path of the table of means, in CSV; empty: none
   std::string record;                       ///< path of the motion file of the first trial; empty: none
 };
 

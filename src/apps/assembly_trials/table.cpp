@@ -43,7 +43,7 @@ std::string completed(const std::vector<assembly::TaskScore>& scores) {
 
 }  // namespace
 
-std::string markdown_table(const std::vector<ToolTrials>& tools) {
+std::string means_csv(const std::vector<ToolTrials>& tools) {
   struct Column {
     const char* title;
     double scale;
@@ -60,15 +60,12 @@ std::string markdown_table(const std::vector<ToolTrials>& tools) {
                             {"broken", 1.0, &Score::broken},
                             {"largest force [N]", 1.0, &Score::largest_force},
                             {"placement error [mm]", 1e3, &Score::position_error}};
-  std::string table = "| tool | trials | completed |", rule = "| --- | --- | --- |";
-  for (const Column& column : columns) {
-    table += std::string(" ") + column.title + " |";
-    rule += " --- |";
-  }
-  table += "\n" + rule + "\n";
+  std::string table = "tool,trials,completed";
+  for (const Column& column : columns) table += std::string(",") + column.title;
+  table += "\n";
   for (const auto& [label, scores] : tools) {
-    table += "| `" + label + "` | " + std::to_string(scores.size()) + " | " + completed(scores) + " |";
-    for (const Column& column : columns) table += " " + mean(scores, column.scale, column.value) + " |";
+    table += label + "," + std::to_string(scores.size()) + "," + completed(scores);
+    for (const Column& column : columns) table += "," + mean(scores, column.scale, column.value);
     table += "\n";
   }
   return table;

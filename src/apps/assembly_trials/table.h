@@ -13,8 +13,8 @@ struct ToolTrials {
   std::vector<assembly::TaskScore> scores;
 };
 
-/// A Markdown table, a line per tool: means with the half width of their 95 % confidence interval (Student's t), and
+/// A table in CSV, a line per tool: means with the half width of their 95 % confidence interval (Student's t), and
 /// the share of completed trials with Wilson's interval.
-std::string markdown_table(const std::vector<ToolTrials>& tools);
+std::string means_csv(const std::vector<ToolTrials>& tools);
 
 }  // namespace spring_workbench::assembly_trials
