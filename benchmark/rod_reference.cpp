@@ -51,7 +51,7 @@ double largest_deflection(const RodCase& one, const std::vector<RigidTransform>&
 }  // namespace
 
 std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& shape, double tolerance) {
-  RodRun run = run_solver(one, shape, "solver_radau", tolerance);
+  RodRun run = run_solver(one, shape, "solver_radau", tolerance, StepEnds::samples_and_outputs);
   if (!run.finite) throw std::runtime_error(one.name + ' ' + shape + ": Radau IIA does not reach the end");
   return std::move(run.X_WO);
 }

@@ -106,7 +106,7 @@ std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& s
   for (const double end : output_times(one)) {
     if (end == 0.0) continue;
     segment = &track.segment(end - 0.01);
-    const double* reached = cvode->advance(end, true);
+    const double* reached = cvode->advance(end, end);
     poses.push_back(body.object(body.forcing(*segment, end), state(reached)).X);
   }
   return poses;
