@@ -149,7 +149,6 @@ class Line {
     reference_ = own_ ? own_limit(one, shape, method, exact) : exact;
     model_error_ = largest_distance(reference_.X_WO, exact.X_WO).position;
     if (ours || takes_step(method)) {
-      if (!ours && samples_are_rare(one)) settings_.push_back({4.0 * kOutputInterval, 0.0});
       for (const int n : plan.steps_per_output) settings_.push_back({kOutputInterval / n, 0.0});
     }
     for (const double tolerance : ours ? plan.tolerances : std::vector<double>{}) settings_.push_back({0.0, tolerance});
@@ -186,7 +185,8 @@ class Line {
   RodRun run(const RodCase& one, const Setting& setting) const {
     if (!ours_) {
       return run_solver(one, shape_, method_, setting.step > 0.0 ? setting.step : setting.tolerance,
-                        samples_are_rare(case_) ? StepEnds::samples : StepEnds::samples_and_outputs);
+                        samples_are_rare(case_) && gains_from_long_steps(method_) ? StepEnds::samples
+                                                                                  : StepEnds::samples_and_outputs);
     }
     const double step = setting.step > 0.0 ? setting.step : kOutputInterval;
     return run_simulated(one, shape_, method_, step, setting.tolerance);

@@ -203,6 +203,10 @@ bool takes_step(const std::string& solver) { return solver == "solver_rk4"; }
 
 bool only_restarts(const std::string& solver) { return solver.find("_restarted") != std::string::npos; }
 
+bool gains_from_long_steps(const std::string& solver) {
+  return solver == "solver_radau" || solver == "solver_cvode_bdf_restarted";
+}
+
 RodRun run_solver(const RodCase& one, const std::string& shape, const std::string& name, double setting,
                   StepEnds step_ends_at, const motion::FrameMotion* function) {
   using Clock = std::chrono::steady_clock;

@@ -17,6 +17,11 @@ bool takes_step(const std::string& solver);
 /// Whether a method differs from another one only by a restart at each sample.
 bool only_restarts(const std::string& solver);
 
+/// Whether a method on samples that are rarer than the outputs is better off with steps from sample to sample and
+/// dense output: the implicit ones with a good one. The others need shorter steps there, or their dense output is worse
+/// than their steps.
+bool gains_from_long_steps(const std::string& solver);
+
 /// Where the steps of a run on samples have to end. The outputs between them come from the method's dense output.
 enum class StepEnds { samples, samples_and_outputs };
 
