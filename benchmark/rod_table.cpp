@@ -32,9 +32,9 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   for (int n = 1; n <= (quick ? 16 : 1024); n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   for (int digits = 0; digits <= 12; digits += quick ? 4 : 1) plan.peer_tolerances.push_back(std::pow(10.0, -digits));
-  plan.longest_run = quick ? 0.005 : 0.01;
-  plan.tolerance_time_limit = quick ? 0.1 : 1.0;
-  plan.repetition = {2, quick ? 0.0025 : 0.005};
+  plan.longest_run = quick ? 0.002 : 0.01;
+  plan.tolerance_time_limit = quick ? 0.05 : 1.0;
+  plan.repetition = quick ? Repetition{1, 0.001} : Repetition{2, 0.005};
   return plan;
 }
 
@@ -172,7 +172,7 @@ class Line {
   /// Measures the run time of a compared row again and keeps the smaller one. Our runs to a tolerance are not compared.
   void time_again(ErrorRow& row) const {
     if (!row.finite || !is_compared_in({row.step, row.tolerance})) return;
-    const RodRun again = timed({row.step, row.tolerance});
+    const RodRun again = timed({row.step, row.tolerance}, 1);
     double& time = row.wall_us_per_simulated_second;
     if (again.finite) time = std::min(time, 1e6 * again.wall_seconds / case_.duration);
   }
@@ -197,8 +197,8 @@ class Line {
     return has_peers(case_, shape_) && !is_ours_to_tolerance(setting) && is_compared(method_, ours_);
   }
   /// Runs that are compared are all made in a child process.
-  RodRun timed(const Setting& setting) const {
-    const Repetition repetition = is_compared_in(setting) ? plan_.repetition : Repetition{1, plan_.repetition.seconds};
+  RodRun timed(const Setting& setting, int runs) const {
+    const Repetition repetition{is_compared_in(setting) ? runs : 1, plan_.repetition.seconds};
     const auto repeated = [&] { return fastest(repetition, [&] { return run(case_, setting); }); };
     if (setting.step > 0.0 && !is_compared_in(setting)) return repeated();
     return run_in_time(plan_.tolerance_time_limit,
@@ -213,7 +213,7 @@ class Line {
   }
 
   ErrorRow row(const Setting& setting) const {
-    const RodRun run = timed(setting);
+    const RodRun run = timed(setting, plan_.repetition.runs);
     ErrorRow r;
     r.scene = case_.name;
     r.shape = shape_;

@@ -88,7 +88,7 @@ TEST(Peers, GeneralSolversAreAsGoodAsTheirToleranceOverTheHandsMotionHoweverItIs
         const RunResult run = run_isolated(*method, scene, tolerance, {}, 60.0);
         ASSERT_TRUE(run.finite) << method->name() << scene.name << scene.stiffness_factor;
         const double error = output_error(scene, reference, run.outputs);
-        EXPECT_LT(error, 1e2 * tolerance) << method->name() << ' ' << scene.name << ' ' << scene.stiffness_factor;
+        EXPECT_LT(error, 3e2 * tolerance) << method->name() << ' ' << scene.name << ' ' << scene.stiffness_factor;
         // A thousandth of the tolerance, unless no digits are left.
         if (coarse > 0.0) {
           EXPECT_LT(error, std::max(0.1 * coarse, 1e-11)) << method->name() << ' ' << scene.name;
