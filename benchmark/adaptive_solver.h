@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "benchmark/ode_solver.h"
 
@@ -15,16 +14,16 @@ class AdaptiveSolver : public OdeSolver {
   static constexpr int max_equations = 12;
   using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_equations, 1>;
 
-  const double* advance(double t, bool stop_there) final {
+  const double* advance(double t, double stop) final {
     while (t_ < t) {
-      const double left = t - t_;
-      if (stop_there && left < 1e-12 * std::max(1.0, std::abs(t))) {
-        t_ = t;
+      const double left = stop - t_;
+      if (left < 1e-12 * std::max(1.0, std::abs(t))) {
+        t_ = stop;
         break;
       }
-      step(stop_there ? left : std::numeric_limits<double>::infinity());
+      step(left);
     }
-    if (stop_there) rates_known_ = false;
+    if (t == stop) rates_known_ = false;
     if (t >= t_) return y_.data();
     output_ = within_last_step((t - before_) / (t_ - before_));
     return output_.data();

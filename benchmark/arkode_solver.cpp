@@ -48,15 +48,19 @@ class Arkode final : public OdeSolver {
     require(ARKStepSetOrder(arkode_, 5), "ARKStepSetOrder");
     require(ARKStepSetMaxNumSteps(arkode_, 10000000), "ARKStepSetMaxNumSteps");
     require(ARKStepSVtolerances(arkode_, tolerance, absolute_), "ARKStepSVtolerances");
+    if (!implicit_) return;
     // As recommended in its guide for equations that may be stiff.
-    if (implicit_) require(ARKStepSetInterpolantType(arkode_, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
-    if (implicit_) require(ARKStepSetLinearSolver(arkode_, linear_solver_, matrix_), "ARKStepSetLinearSolver");
+    require(ARKStepSetInterpolantType(arkode_, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
+    require(ARKStepSetLinearSolver(arkode_, linear_solver_, matrix_), "ARKStepSetLinearSolver");
+    // With a matrix of up to 20 steps before, its default, a stage may end after one iteration that has not converged:
+    // the error then grows as the tolerance falls.
+    require(ARKStepSetLSetupFrequency(arkode_, 1), "ARKStepSetLSetupFrequency");
   }
 
-  const double* advance(double t, bool stop_there) override {
-    if (stop_there) require(ARKStepSetStopTime(arkode_, t), "ARKStepSetStopTime");
+  const double* advance(double t, double stop) override {
+    if (stop < kNever) require(ARKStepSetStopTime(arkode_, stop), "ARKStepSetStopTime");
     if (t > reached_) require(ARKStepEvolve(arkode_, t, y_, &reached_, ARK_NORMAL), "ARKStepEvolve");
-    if (stop_there) require(ARKStepReset(arkode_, t, y_), "ARKStepReset");  // the rates may jump; keeps the step size
+    if (t == stop) require(ARKStepReset(arkode_, t, y_), "ARKStepReset");  // the rates may jump; keeps the step size
     return N_VGetArrayPointer(y_);
   }
 

@@ -128,7 +128,6 @@ class BulletSpring2 : public Method {
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    const double h = step_length(scene, step);
     BulletWorld world(scene);
     btSphereShape hand_shape(0.01);
     btRigidBody hand(0.0, nullptr, &hand_shape);
@@ -138,8 +137,7 @@ class BulletSpring2 : public Method {
       const HandState state = hand_state(scene, t);
       return to_bullet(state.R_WT, state.p_WT);
     };
-    hand.setWorldTransform(hand_transform(0.0));
-    hand.setInterpolationWorldTransform(hand_transform(-h));  // Bullet computes the hand's velocity from the difference
+    btTransform next = hand_transform(0.0);
     world.add(hand);
     if (scene.kind == SceneKind::torsion) world.object().setGravity(btVector3(0.0, 0.0, 0.0));
 
@@ -157,7 +155,12 @@ class BulletSpring2 : public Method {
     return stepping_loop(
         scene, step,
         [&](double t, double dt) {
-          hand.setWorldTransform(hand_transform(t));
+          const btTransform now = next;
+          next = hand_transform(t + dt);
+          hand.setWorldTransform(now);
+          // Bullet computes the hand's velocity from the difference of these two: that of the coming step.
+          hand.setInterpolationWorldTransform(btTransform(now.getBasis() * next.getBasis().transpose() * now.getBasis(),
+                                                          2.0 * now.getOrigin() - next.getOrigin()));
           world.step(dt);
         },
         [&](double) { return world.output(scene); });

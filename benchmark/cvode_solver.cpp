@@ -57,10 +57,10 @@ class Cvode final : public OdeSolver {
     require(CVodeSVtolerances(cvode_, tolerance, absolute_), "CVodeSVtolerances");
   }
 
-  const double* advance(double t, bool stop_there) override {
-    if (stop_there) require(CVodeSetStopTime(cvode_, t), "CVodeSetStopTime");
+  const double* advance(double t, double stop) override {
+    if (stop < kNever) require(CVodeSetStopTime(cvode_, stop), "CVodeSetStopTime");
     if (t > reached_) require(CVode(cvode_, t, y_, &reached_, CV_NORMAL), "CVode");
-    if (stop_there) reinitialise(t);
+    if (t == stop) reinitialise(t);
     return N_VGetArrayPointer(y_);
   }
 

@@ -92,12 +92,12 @@ class DartWorld {
 
   void place_hand(double t) {
     if (scene_.kind != SceneKind::six_dof) {
-      const ScalarMotion hand = scalar_hand(scene_, t);
+      const ScalarMotion& hand = single_.at(scene_, t);
       skeleton_->setPosition(0, hand.value);
       skeleton_->setVelocity(0, hand.rate);
       return;
     }
-    const HandState hand = hand_state(scene_, t);
+    const HandState& hand = hand_.at(scene_, t).state;
     Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
     X_WT.linear() = hand.R_WT;
     X_WT.translation() = hand.p_WT;
@@ -109,16 +109,18 @@ class DartWorld {
 
   void set_hand_acceleration(double t) {
     if (scene_.kind != SceneKind::six_dof) {
-      skeleton_->setAcceleration(0, scalar_hand(scene_, t).acceleration);
+      skeleton_->setAcceleration(0, single_.at(scene_, t).acceleration);
       return;
     }
-    const auto& [state, hand] = hand_motion(scene_, t);
+    const auto& [state, hand] = hand_.at(scene_, t);
     auto* joint = static_cast<dart::dynamics::FreeJoint*>(skeleton_->getRootJoint());
     joint->setLinearAcceleration(hand.a_WT_W);
     joint->setAngularAcceleration(state.R_WT * hand.alpha_WT_T);
   }
 
   Scenario scene_;
+  RememberedMotion hand_;
+  RememberedScalar single_;
   SkeletonPtr skeleton_;
   dart::simulation::WorldPtr world_ = dart::simulation::World::create();
 };

@@ -81,6 +81,7 @@ ReferenceSolution own_solution(const Method& method, const Scenario& scene, int 
 
 /// Whether the row's run time is used in comparisons: for every peer and for our default integrator.
 bool is_compared(const ErrorRow& row);
+bool is_compared(const std::string& method, bool ours);
 
 /// Whether the last three of these `rows` that are finite, finest last, have not reduced the error.
 bool has_levelled_off(const std::vector<ErrorRow>& rows);

@@ -19,17 +19,6 @@ struct Header {
   bool finite;
 };
 
-RunResult run_repeatedly(const Method& method, const Scenario& scene, double setting, const Repetition& repetition) {
-  RunResult best = method.run(scene, setting);
-  double spent = best.wall_seconds;
-  for (int runs = 1; best.finite && wants_another(repetition, runs, spent); ++runs) {
-    const RunResult again = method.run(scene, setting);
-    spent += again.wall_seconds;
-    best.wall_seconds = std::min(best.wall_seconds, again.wall_seconds);
-  }
-  return best;
-}
-
 std::string packed(const RunResult& result) {
   const Header header{result.wall_seconds, result.steps_fallback, result.finite};
   std::string data(sizeof(header) + result.outputs.size() * sizeof(Vector3d), '\0');
@@ -49,8 +38,8 @@ bool wants_another(const Repetition& repetition, int runs, double spent) {
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
                        double time_limit) {
   const auto start = std::chrono::steady_clock::now();
-  const auto data = validation::run_in_child([&] { return packed(run_repeatedly(method, scene, setting, repetition)); },
-                                             {time_limit});
+  const auto data = validation::run_in_child(
+      [&] { return packed(fastest(repetition, [&] { return method.run(scene, setting); })); }, {time_limit});
   RunResult result;
   if (!data) {
     result.given_up = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >= time_limit;

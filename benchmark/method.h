@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -38,6 +39,9 @@ class Method {
   /// its error is measured against its own solution at a tiny step.
   virtual bool has_scene_law(const Scenario&) const { return true; }
 
+  /// Whether it is to be run on this scene.
+  virtual bool runs_on(const Scenario&) const { return true; }
+
   /// Whether its steps may be longer than the output interval, with interpolation between them. Our steps end at the
   /// outputs, as they end at samples for a user.
   virtual bool takes_long_steps() const { return knob() == Knob::step && !ours(); }
@@ -58,6 +62,27 @@ constexpr double kMaxSeconds = 0.5;
 
 /// Whether another run is due after `runs` runs that took `spent` [s] in total.
 bool wants_another(const Repetition& repetition, int runs, double spent);
+
+/// The first result of `run`, with the shortest of the `wall_seconds` of these repetitions. If several runs are asked
+/// for, a first one that takes less than kColdSeconds does not count: its memory and caches are cold.
+constexpr double kColdSeconds = 0.02;
+template <typename Run>
+auto fastest(const Repetition& repetition, Run&& run) {
+  auto best = run();
+  int runs = 1;
+  double spent = best.wall_seconds;
+  if (repetition.runs > 1 && spent < kColdSeconds) {
+    runs = 0;
+    spent = 0.0;
+    best.wall_seconds = std::numeric_limits<double>::infinity();
+  }
+  for (; best.finite && wants_another(repetition, runs, spent); ++runs) {
+    const double again = run().wall_seconds;
+    spent += again;
+    best.wall_seconds = std::min(best.wall_seconds, again);
+  }
+  return best;
+}
 
 /// Calls run() in a child process, so that an engine that aborts, hangs or exhausts memory does not affect the report.
 /// The result is not finite if the child died or took longer than `time_limit` [s]. The caller must have no other

@@ -33,7 +33,11 @@ Vector3d position(dBodyID body) { return Eigen::Map<const Vector3d>(dBodyGetPosi
 class OdeWorld {
  public:
   explicit OdeWorld(const Scenario& scene)
-      : scene_(scene), world_(dWorldCreate()), hand_(dBodyCreate(world_)), object_(dBodyCreate(world_)) {
+      : scene_(scene),
+        next_(hand_state(scene, 0.0)),
+        world_(dWorldCreate()),
+        hand_(dBodyCreate(world_)),
+        object_(dBodyCreate(world_)) {
     dWorldSetGravity(world_, 0.0, 0.0, scene.kind == SceneKind::torsion ? 0.0 : -scene.gravity);
     dMass mass;
     dMassSetParameters(&mass, scene.mass, 0, 0, 0, scene.inertia.x(), scene.inertia.y(), scene.inertia.z(), 0, 0, 0);
@@ -46,7 +50,7 @@ class OdeWorld {
     set_rotation(object_, R);
     dBodySetLinearVel(object_, start.v_WO_W.x(), start.v_WO_W.y(), start.v_WO_W.z());
     dBodySetAngularVel(object_, w.x(), w.y(), w.z());
-    set_rotation(hand_, hand_state(scene, 0.0).R_WT);
+    set_rotation(hand_, next_.R_WT);
     add_motor(dJointCreateLMotor(world_, nullptr), 0, dJointSetLMotorParam, linear_);
     add_motor(dJointCreateAMotor(world_, nullptr), 3, dJointSetAMotorParam, angular_);
   }
@@ -55,7 +59,8 @@ class OdeWorld {
   OdeWorld& operator=(const OdeWorld&) = delete;
 
   void step(double t, double h) {
-    const HandState hand = hand_state(scene_, t), next = hand_state(scene_, t + h);
+    const HandState hand = next_, next = hand_state(scene_, t + h);
+    next_ = next;
     const Matrix3d R_WO = rotation(object_);
     const Vector3d p_WE = position(object_) - R_WO * scene_.p_EO;
     place_hand(hand, next, p_WE, h);
@@ -124,6 +129,7 @@ class OdeWorld {
   }
 
   Scenario scene_;
+  HandState next_;  ///< the hand at the end of the last step
   dWorldID world_;
   dBodyID hand_, object_;
   Motor linear_, angular_;

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace spring_workbench::benchmark {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();  ///< [s]
 
 /// A general solver of y' = f(t, y) that chooses its steps.
 class OdeSolver {
@@ -19,9 +22,10 @@ class OdeSolver {
   /// Starts at `t` with `y`. `tolerance`: relative tolerance; the absolute one of each entry is `tolerance` times its
   /// `scale`.
   virtual void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) = 0;
-  /// Integrates to `t` and returns the state there, valid until the next call. With `stop_there` the rates are not
-  /// evaluated beyond `t`, so they may be discontinuous there. Throws std::runtime_error if the solver fails.
-  virtual const double* advance(double t, bool stop_there) = 0;
+  /// Integrates to `t` and returns the state there, valid until the next call; between the ends of steps by the
+  /// solver's own dense output. The rates are not evaluated beyond `stop` ≥ `t`, which may be kNever, and may be
+  /// discontinuous there: if `t` is `stop`, the solver restarts. Throws std::runtime_error if the solver fails.
+  virtual const double* advance(double t, double stop) = 0;
 };
 
 /// Twelve stages of order eight with error estimates of order five and three and dense output of order seven (Dormand

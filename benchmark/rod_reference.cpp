@@ -63,7 +63,7 @@ double hand_error(RodCase halfway, const std::string& shape, const std::vector<R
 double farthest_point(const RodCase& one) { return std::sqrt(1.5 * one.inertia.sum() / one.mass); }
 
 std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& shape, double tolerance) {
-  RodRun run = run_solver(one, shape, "solver_radau", tolerance);
+  RodRun run = run_solver(one, shape, "solver_radau", tolerance, StepEnds::samples_and_outputs);
   if (!run.finite) throw std::runtime_error(one.name + ' ' + shape + ": Radau IIA does not reach the end");
   return std::move(run.X_WO);
 }

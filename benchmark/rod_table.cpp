@@ -21,19 +21,6 @@ namespace {
 
 constexpr double kOutputInterval = 0.02;
 
-/// The fastest of some runs.
-template <typename Run>
-RodRun fastest(const Repetition& repetition, Run&& run) {
-  RodRun best = run();
-  double spent = best.wall_seconds;
-  for (int runs = 1; best.finite && wants_another(repetition, runs, spent); ++runs) {
-    const double again = run().wall_seconds;
-    spent += again;
-    best.wall_seconds = std::min(best.wall_seconds, again);
-  }
-  return best;
-}
-
 }  // namespace
 
 RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
@@ -45,9 +32,9 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   for (int n = 1; n <= (quick ? 16 : 1024); n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   for (int digits = 0; digits <= 12; digits += quick ? 4 : 1) plan.peer_tolerances.push_back(std::pow(10.0, -digits));
-  plan.longest_run = quick ? 0.005 : 0.01;
-  plan.tolerance_time_limit = quick ? 0.1 : 1.0;
-  plan.repetition = {1, quick ? 0.0025 : 0.005};
+  plan.longest_run = quick ? 0.002 : 0.01;
+  plan.tolerance_time_limit = quick ? 0.05 : 1.0;
+  plan.repetition = quick ? Repetition{1, 0.001} : Repetition{2, 0.005};
   return plan;
 }
 
@@ -142,6 +129,13 @@ bool has_peers(const RodCase& one, const std::string& shape) {
   return shape == validation::name_of(rod::ForkSettings().shape) || !one.recorded.empty();
 }
 
+/// Whether the samples of the hand are farther apart than the outputs, so that steps from one to the next are worth
+/// while.
+bool samples_are_rare(const RodCase& one) {
+  const double interval = (one.hand.back().t - one.hand.front().t) / static_cast<double>(one.hand.size() - 1);
+  return interval > 1.5 * one.output_interval;
+}
+
 /// Measures one of our integrators on a case, first by step and then by tolerance, or a general method, setting by
 /// setting.
 class Line {
@@ -175,8 +169,8 @@ class Line {
 
   /// Measures the run time of a compared row again and keeps the smaller one. Our runs to a tolerance are not compared.
   void time_again(ErrorRow& row) const {
-    if (!row.finite || row.error_over_tolerance > 0.0 || !is_compared(row) || !has_peers(case_, shape_)) return;
-    const RodRun again = timed({row.step, row.tolerance});
+    if (!row.finite || !is_compared_in({row.step, row.tolerance})) return;
+    const RodRun again = timed({row.step, row.tolerance}, 1);
     double& time = row.wall_us_per_simulated_second;
     if (again.finite) time = std::min(time, 1e6 * again.wall_seconds / case_.duration);
   }
@@ -187,14 +181,24 @@ class Line {
   };
 
   RodRun run(const RodCase& one, const Setting& setting) const {
-    if (!ours_) return run_solver(one, shape_, method_, setting.step > 0.0 ? setting.step : setting.tolerance);
+    if (!ours_) {
+      return run_solver(one, shape_, method_, setting.step > 0.0 ? setting.step : setting.tolerance,
+                        samples_are_rare(case_) && gains_from_long_steps(method_) ? StepEnds::samples
+                                                                                  : StepEnds::samples_and_outputs);
+    }
     const double step = setting.step > 0.0 ? setting.step : kOutputInterval;
     return run_simulated(one, shape_, method_, step, setting.tolerance);
   }
   bool is_ours_to_tolerance(const Setting& setting) const { return ours_ && setting.tolerance > 0.0; }
-  RodRun timed(const Setting& setting) const {
-    const auto repeated = [&] { return fastest(plan_.repetition, [&] { return run(case_, setting); }); };
-    if (setting.step > 0.0) return repeated();
+  /// Whether the run time at this setting is compared.
+  bool is_compared_in(const Setting& setting) const {
+    return has_peers(case_, shape_) && !is_ours_to_tolerance(setting) && is_compared(method_, ours_);
+  }
+  /// Runs that are compared are all made in a child process.
+  RodRun timed(const Setting& setting, int runs) const {
+    const Repetition repetition{is_compared_in(setting) ? runs : 1, plan_.repetition.seconds};
+    const auto repeated = [&] { return fastest(repetition, [&] { return run(case_, setting); }); };
+    if (setting.step > 0.0 && !is_compared_in(setting)) return repeated();
     return run_in_time(plan_.tolerance_time_limit,
                        [&] { return is_ours_to_tolerance(setting) ? run(case_, setting) : repeated(); });
   }
@@ -207,7 +211,7 @@ class Line {
   }
 
   ErrorRow row(const Setting& setting) const {
-    const RodRun run = timed(setting);
+    const RodRun run = timed(setting, plan_.repetition.runs);
     ErrorRow r;
     r.scene = case_.name;
     r.shape = shape_;

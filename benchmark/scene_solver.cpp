@@ -15,7 +15,7 @@ std::vector<Vector3d> SceneSolver::solve(double tolerance) {
   problem_->tolerance_scale(scale.data());
   solver_->begin(0.0, y, tolerance, scale);
   std::vector<Vector3d> outputs;
-  for (const double end : output_times(scene_)) outputs.push_back(problem_->output(end, solver_->advance(end, false)));
+  for (const double end : output_times(scene_)) outputs.push_back(problem_->output(end, solver_->advance(end, kNever)));
   return outputs;
 }
 

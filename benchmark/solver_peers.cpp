@@ -13,9 +13,13 @@ class SolverPeer : public Method {
   std::string name() const override { return name_; }
   Knob knob() const override { return takes_step(name_) ? Knob::step : Knob::tolerance; }
 
+  bool runs_on(const Scenario& scene) const override { return scene.samples != nullptr || !only_restarts(name_); }
+
   RunResult run(const Scenario& scene, double setting) const override {
     const FunctionHand hand(scene);
-    return as_result(scene, run_solver(rod_case(scene), "bushing", name_, setting, scene.samples ? nullptr : &hand));
+    // The outputs are at the samples, but for the run with additional ones half-way, in which steps end there, too.
+    return as_result(scene, run_solver(rod_case(scene), "bushing", name_, setting, StepEnds::samples_and_outputs,
+                                       scene.samples ? nullptr : &hand));
   }
 
  private:

@@ -1,26 +1,31 @@
 #include "benchmark/solver_run.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
 #include "benchmark/ode_solver.h"
+#include "spring_workbench/math/by_size.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double kFarthest = 1000.0;  // m
 
-bool is_cvode(const std::string& solver) { return solver.find("cvode") != std::string::npos; }
+/// Whether a method on samples runs through them instead of stopping at each: CVODE, unless it is to be restarted.
+bool runs_through(const std::string& solver) { return solver == "solver_cvode_bdf" || solver == "solver_cvode_adams"; }
 
 std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, OdeSolver::Rates rates) {
   if (name == "solver_dop853") return make_dop853(size, std::move(rates));
   if (name == "solver_radau") return make_radau(size, std::move(rates));
   if (name == "solver_arkode_erk") return make_arkode(false, size, std::move(rates));
   if (name == "solver_arkode_dirk") return make_arkode(true, size, std::move(rates));
-  return make_cvode(name == "solver_cvode_adams" ? CvodeFormula::adams : CvodeFormula::bdf, size, std::move(rates));
+  const bool adams = name.find("adams") != std::string::npos;
+  return make_cvode(adams ? CvodeFormula::adams : CvodeFormula::bdf, size, std::move(rates));
 }
 
 /// Interface to the library: rates of the strain and its rate, and the pose of the object.
@@ -29,6 +34,7 @@ class Equations {
   Equations(const RodCase& one, const std::string& shape, const motion::FrameMotion* function)
       : body_(held_body(one, shape)), hand_(function) {
     if (function == nullptr) samples_.emplace(one.hand, one.fork.length);
+    for (int i = 0; i < body_.size(); ++i) inside_[static_cast<std::size_t>(i)] = 1.0 / admissible_strain(i);
   }
 
   const dynamics::HeldBody& body() const { return body_; }
@@ -38,13 +44,14 @@ class Equations {
     hand_ = &samples_->handle(t);
     known_.reset();
   }
+  /// The rates of 2 n = 2 body().size() entries.
+  template <int n>
   bool rates(double t, const double* y, double* rate) const {
-    const int n = body_.size();
-    const dynamics::StrainState state{Eigen::Map<const Eigen::VectorXd>(y, n),
-                                      Eigen::Map<const Eigen::VectorXd>(y + n, n)};
-    if (!body_.shape().admissible(body_.full_state(t, state).q)) return false;
-    Eigen::Map<Eigen::VectorXd>(rate, n) = state.q_dot;
-    Eigen::Map<Eigen::VectorXd>(rate + n, n) = body_.acceleration(forcing(t), state.q, state.q_dot);
+    using Strain = Eigen::Matrix<double, n, 1>;
+    const Strain q = Eigen::Map<const Strain>(y), q_dot = Eigen::Map<const Strain>(y + n);
+    if (!is_admissible(t, q)) return false;
+    Eigen::Map<Strain>{rate} = q_dot;
+    Eigen::Map<Strain>{rate + n} = body_.acceleration<n>(forcing(t), q, q_dot);
     return true;
   }
   RigidTransform object(double t, const double* y) const {
@@ -55,6 +62,24 @@ class Equations {
   }
 
  private:
+  /// A strain of coordinate `i`, the others zero, that is admissible with either sign.
+  double admissible_strain(int i) const {
+    const auto fits = [&](double strain) {
+      dynamics::StrainState state = body_.zero_state();
+      state.q[i] = strain;
+      return body_.shape().admissible(body_.full_state(0.0, state).q);
+    };
+    double strain = 64.0;
+    while (!fits(strain) || !fits(-strain)) strain *= 0.5;
+    return strain;
+  }
+  /// Whether a strain is admissible. The shape is asked only outside the hull of the strains admissible_strain(),
+  /// inside which all are, since the range is convex.
+  template <int n>
+  bool is_admissible(double t, const Eigen::Matrix<double, n, 1>& q) const {
+    if (q.cwiseAbs().dot(Eigen::Map<const Eigen::Matrix<double, n, 1>>(inside_.data())) < 1.0) return true;
+    return body_.shape().admissible(body_.full_state(t, {q, Eigen::Matrix<double, n, 1>::Zero()}).q);
+  }
   /// The hand at `t`, cached for repeated calls with the same time.
   const dynamics::HandleForcing& forcing(double t) const {
     if (!known_ || known_->t != t) known_ = body_.forcing(*hand_, t);
@@ -62,10 +87,23 @@ class Equations {
   }
 
   dynamics::HeldBody body_;
+  std::array<double, rod::max_strain_coordinates> inside_{};
   std::optional<SampledHand> samples_;
   const motion::FrameMotion* hand_;
   mutable std::optional<dynamics::HandleForcing> known_;
 };
+
+/// The rates for the number of coordinates; with `through`, with the hand's segment at each time.
+OdeSolver::Rates rates_of(Equations& equations, bool through) {
+  return math::by_size(equations.body().size(), [&](auto size) -> OdeSolver::Rates {
+    constexpr int n = decltype(size)::value;
+    if (!through) return [&equations](double t, const double* y, double* r) { return equations.rates<n>(t, y, r); };
+    return [&equations](double t, const double* y, double* r) {
+      equations.use_segment(t);
+      return equations.rates<n>(t, y, r);
+    };
+  });
+}
 
 /// Scale of the absolute tolerances. For strains roughly the static strain; for rates, the error that causes the same
 /// relative error of the strains for uncoupled oscillations, since only the pose of the object matters.
@@ -81,6 +119,20 @@ std::vector<double> scale_of(const RodCase& one, const dynamics::HeldBody& body)
   return scale;
 }
 
+/// The times at which a step has to end, after the start and in order; the last output is one.
+std::vector<double> ends_of_steps(const RodCase& one, StepEnds at) {
+  std::vector<double> ends = step_ends(one);
+  ends.erase(ends.begin());
+  if (at == StepEnds::samples_and_outputs) return ends;
+  const auto is_sample = [&](double t) {
+    return std::any_of(one.hand.begin(), one.hand.end(),
+                       [&](const motion::PoseSample& sample) { return std::abs(sample.t - t) < kSameTime; });
+  };
+  ends.erase(std::remove_if(ends.begin(), std::prev(ends.end()), [&](double t) { return !is_sample(t); }),
+             std::prev(ends.end()));
+  return ends;
+}
+
 /// The classical method with equal steps of at most `step` [s] up to a stop; cubic Hermite interpolation between their
 /// ends.
 class RungeKutta4 final : public OdeSolver {
@@ -90,12 +142,14 @@ class RungeKutta4 final : public OdeSolver {
   void begin(double t, const std::vector<double>& y, double, const std::vector<double>&) override {
     t_ = before_ = t;
     y_ = Eigen::Map<const Eigen::VectorXd>(y.data(), y_.size());
-    rate_ = stage(t_, y_);
+    rate_known_ = false;
   }
-  const double* advance(double t, bool stop_there) override {
-    if (stop_there) rate_ = stage(t_, y_);  // the rates may have jumped
-    while (t_ < t - kSameTime) step(stop_there ? (t - t_) / std::ceil((t - t_) / step_ * (1.0 - 1e-9)) : step_);
+  const double* advance(double t, double stop) override {
+    while (t_ < t - kSameTime)
+      step(stop < kNever ? (stop - t_) / std::ceil((stop - t_) / step_ * (1.0 - 1e-9)) : step_);
+    if (t == stop) rate_known_ = false;  // it may jump
     if (t_ < t + kSameTime) return y_.data();
+    find_rate();
     const double h = t_ - before_, u = (t - before_) / h, v = 1.0 - u;
     output_ = v * from_ + u * y_ + u * v * (v * (h * from_rate_ - (y_ - from_)) - u * (h * rate_ - (y_ - from_)));
     return output_.data();
@@ -103,7 +157,12 @@ class RungeKutta4 final : public OdeSolver {
 
  private:
   using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
+  void find_rate() {
+    if (!rate_known_) rate_ = stage(t_, y_);
+    rate_known_ = true;
+  }
   void step(double h) {
+    find_rate();
     const State k2 = stage(t_ + 0.5 * h, y_ + 0.5 * h * rate_), k3 = stage(t_ + 0.5 * h, y_ + 0.5 * h * k2),
                 k4 = stage(t_ + h, y_ + h * k3);
     from_ = y_;
@@ -111,7 +170,7 @@ class RungeKutta4 final : public OdeSolver {
     before_ = t_;
     y_ += h / 6.0 * (rate_ + 2.0 * (k2 + k3) + k4);
     t_ += h;
-    rate_ = stage(t_, y_);
+    rate_known_ = false;
   }
   State stage(double t, const State& y) const {
     State rate(y.size());
@@ -122,38 +181,44 @@ class RungeKutta4 final : public OdeSolver {
   Rates rates_;
   double step_, t_ = 0.0, before_ = 0.0;
   State y_, rate_, from_, from_rate_, output_;
+  bool rate_known_ = false;  ///< whether rate_ is that at t_
 };
 
 }  // namespace
 
 const std::vector<std::string>& solver_names() {
-  static const std::vector<std::string> names = {"solver_rk4",        "solver_dop853",      "solver_radau",
-                                                 "solver_cvode_bdf",  "solver_cvode_adams", "solver_arkode_erk",
+  static const std::vector<std::string> names = {"solver_rk4",
+                                                 "solver_dop853",
+                                                 "solver_radau",
+                                                 "solver_cvode_bdf",
+                                                 "solver_cvode_adams",
+                                                 "solver_cvode_bdf_restarted",
+                                                 "solver_cvode_adams_restarted",
+                                                 "solver_arkode_erk",
                                                  "solver_arkode_dirk"};
   return names;
 }
 
 bool takes_step(const std::string& solver) { return solver == "solver_rk4"; }
 
+bool only_restarts(const std::string& solver) { return solver.find("_restarted") != std::string::npos; }
+
+bool gains_from_long_steps(const std::string& solver) {
+  return solver == "solver_radau" || solver == "solver_cvode_bdf_restarted";
+}
+
 RodRun run_solver(const RodCase& one, const std::string& shape, const std::string& name, double setting,
-                  const motion::FrameMotion* function) {
+                  StepEnds step_ends_at, const motion::FrameMotion* function) {
   using Clock = std::chrono::steady_clock;
   Equations equations(one, shape, function);
   const int size = 2 * equations.body().size();
-  const bool by_segments = function == nullptr, every_segment = by_segments && !is_cvode(name);
-  OdeSolver::Rates rates = [&equations](double t, const double* y, double* rate) {
-    return equations.rates(t, y, rate);
-  };
-  if (by_segments && !every_segment) {
-    rates = [&equations](double t, const double* y, double* rate) {
-      equations.use_segment(t);
-      return equations.rates(t, y, rate);
-    };
-  }
+  const bool by_segments = function == nullptr, stops = by_segments && !runs_through(name);
+  const OdeSolver::Rates rates = rates_of(equations, by_segments && !stops);
   const std::unique_ptr<OdeSolver> solver =
       takes_step(name) ? std::make_unique<RungeKutta4>(size, setting, rates) : make_solver(name, size, rates);
   const std::vector<double> start(static_cast<std::size_t>(size), 0.0), scale = scale_of(one, equations.body());
-  const std::vector<double> times = output_times(one), ends = every_segment ? step_ends(one) : times;
+  const std::vector<double> times = output_times(one), stations = stops ? step_ends(one) : times;
+  const std::vector<double> ends = stops ? ends_of_steps(one, step_ends_at) : std::vector<double>{kNever};
   RodRun run;
   run.X_WO.reserve(times.size());
   equations.use_segment(0.0);
@@ -161,12 +226,15 @@ RodRun run_solver(const RodCase& one, const std::string& shape, const std::strin
   try {
     run.X_WO.push_back(equations.object(0.0, start.data()));
     solver->begin(0.0, start, setting, scale);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      if (by_segments) equations.use_segment(0.5 * (ends[i] + ends[i + 1]));
-      const double* y = solver->advance(ends[i + 1], every_segment);
-      if (ends[i + 1] < times[run.X_WO.size()] - kSameTime) continue;
-      if (by_segments) equations.use_segment(ends[i + 1]);
-      run.X_WO.push_back(equations.object(ends[i + 1], y));
+    auto end = ends.begin();
+    for (std::size_t i = 1; i < stations.size(); ++i) {
+      const double t = stations[i];
+      if (by_segments) equations.use_segment(0.5 * (stations[i - 1] + t));
+      const double* y = solver->advance(t, *end);
+      if (t == *end) ++end;
+      if (t < times[run.X_WO.size()] - kSameTime) continue;
+      if (by_segments) equations.use_segment(t);
+      run.X_WO.push_back(equations.object(t, y));
       const RigidTransform& X = run.X_WO.back();
       if (!X.matrix().allFinite() || X.translation().norm() > kFarthest) return run;
     }

@@ -7,13 +7,16 @@
 namespace spring_workbench::benchmark {
 namespace {
 
+constexpr int default_iterations = 10, more_iterations = 100;  // of Bullet's solver, in a step
+
 btVector3 to_bullet(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
 Vector3d from_bullet(const btVector3& v) { return Vector3d(v.x(), v.y(), v.z()); }
 
 /// A box on a plane, and a hand that moves it.
 class BulletDrag : public DragWorld {
  public:
-  explicit BulletDrag(const DragScene& scene)
+  /// `iterations`: of the solver for contact and constraints.
+  BulletDrag(const DragScene& scene, int iterations)
       : scene_(scene),
         box_shape_(to_bullet(Vector3d(0.5 * scene.size))),
         plane_(0.0, nullptr, &plane_shape_),
@@ -23,6 +26,7 @@ class BulletDrag : public DragWorld {
     box_.setInterpolationWorldTransform(box_.getCenterOfMassTransform());
     box_.setActivationState(DISABLE_DEACTIVATION);
     if (!scene.turns) box_.setAngularFactor(0.0);
+    world_.getSolverInfo().m_numIterations = iterations;
     for (btRigidBody* body : {&plane_, &box_}) {
       body->setFriction(std::sqrt(scene.friction));
       world_.addRigidBody(body);
@@ -74,12 +78,10 @@ class BulletForce final : public BulletDrag {
 /// btGeneric6DofSpring2Constraint to a kinematic hand, with its silent limit on the stiffness (its default) or without.
 class BulletSpring2 final : public BulletDrag {
  public:
-  BulletSpring2(const DragScene& scene, double step, bool limited)
-      : BulletDrag(scene), hand_(0.0, nullptr, &hand_shape_) {
+  BulletSpring2(const DragScene& scene, bool limited, int iterations)
+      : BulletDrag(scene, iterations), hand_(0.0, nullptr, &hand_shape_) {
     hand_.setCollisionFlags(hand_.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     hand_.setActivationState(DISABLE_DEACTIVATION);
-    hand_.setWorldTransform(hand_transform(0.0));
-    hand_.setInterpolationWorldTransform(hand_transform(-step));
     world_.addRigidBody(&hand_, 0, 0);  // without collisions
     const btTransform here = btTransform::getIdentity();
     coupling_ = std::make_unique<btGeneric6DofSpring2Constraint>(hand_, box_, here, here);
@@ -97,7 +99,10 @@ class BulletSpring2 final : public BulletDrag {
     world_.removeRigidBody(&hand_);
   }
   void step(double t, double h) override {
-    hand_.setWorldTransform(hand_transform(t));
+    const btTransform now = hand_transform(t), next = hand_transform(t + h);
+    hand_.setWorldTransform(now);
+    // Bullet computes the hand's velocity from the difference of these two: that of the coming step.
+    hand_.setInterpolationWorldTransform(btTransform(now.getBasis(), 2.0 * now.getOrigin() - next.getOrigin()));
     world_.stepSimulation(h, 0);
   }
 
@@ -113,15 +118,18 @@ class BulletSpring2 final : public BulletDrag {
 }  // namespace
 
 std::vector<DragMethod> bullet_drags() {
-  const auto spring2 = [](bool limited) {
-    return [limited](const DragScene& scene, double step) -> std::unique_ptr<DragWorld> {
-      return std::make_unique<BulletSpring2>(scene, step, limited);
+  const auto spring2 = [](bool limited, int iterations) {
+    return [=](const DragScene& scene, double) -> std::unique_ptr<DragWorld> {
+      return std::make_unique<BulletSpring2>(scene, limited, iterations);
     };
   };
-  return {
-      {"bullet_explicit", true, [](const DragScene& scene, double) { return std::make_unique<BulletForce>(scene); }},
-      {"bullet_spring2", true, spring2(true)},
-      {"bullet_spring2_unlimited", true, spring2(false)}};
+  const auto force = [](const DragScene& scene, double) {
+    return std::make_unique<BulletForce>(scene, default_iterations);
+  };
+  return {{"bullet_explicit", true, force},
+          {"bullet_spring2", true, spring2(true, default_iterations)},
+          {"bullet_spring2_unlimited", true, spring2(false, default_iterations)},
+          {"bullet_spring2_tuned", true, spring2(true, more_iterations)}};
 }
 
 }  // namespace spring_workbench::benchmark

@@ -30,26 +30,30 @@ std::string joints(const char* type, double stiffness, double damping, double ar
 }
 
 /// MuJoCo model of the scene: a plane, a hand on three slide joints, and a box attached to the hand by slide and hinge
-/// joints with springs. Contact parameters are MuJoCo's defaults, except that the friction cone is elliptic.
-std::string model_of(const DragScene& s) {
-  std::ostringstream out;
-  out << std::setprecision(17)
-      << "<mujoco><compiler angle=\"radian\"/><option cone=\"elliptic\" gravity=" << triple(Vector3d(0, 0, -s.gravity))
-      << "/><worldbody><geom type=\"plane\" size=\"5 5 1\" friction=\"" << s.friction << "\"/><body>"
-      << joints("slide", 0.0, 0.0, hand_inertia) << "<inertial mass=\"1\" diaginertia=\"1 1 1\" pos=\"0 0 0\"/><body>"
+/// joints with springs; the friction cone is elliptic. Contact parameters are MuJoCo's defaults or, if `tuned`, those
+/// that come nearest to rigid contact here: the shortest time constant that the step [s] allows, and iterations against
+/// slip.
+std::string model_of(const DragScene& s, double step, bool tuned) {
+  std::ostringstream out, contact;
+  if (tuned) contact << std::setprecision(17) << " solref=\"" << 2.0 * step << " 1\"";
+  out << std::setprecision(17) << "<mujoco><compiler angle=\"radian\"/><option cone=\"elliptic\""
+      << (tuned ? " noslip_iterations=\"10\"" : "") << " gravity=" << triple(Vector3d(0, 0, -s.gravity))
+      << "/><worldbody><geom type=\"plane\" size=\"5 5 1\" friction=\"" << s.friction << '"' << contact.str()
+      << "/><body>" << joints("slide", 0.0, 0.0, hand_inertia)
+      << "<inertial mass=\"1\" diaginertia=\"1 1 1\" pos=\"0 0 0\"/><body>"
       << joints("slide", s.stiffness(), s.damping(), 0.0)
       << (s.turns ? joints("hinge", s.turning_stiffness(), s.turning_damping(), 0.0) : "") << "<inertial mass=\""
       << s.mass << "\" diaginertia=" << triple(s.inertia())
       << " pos=\"0 0 0\"/><geom type=\"box\" size=" << triple(Vector3d(0.5 * s.size)) << " friction=\"" << s.friction
-      << "\"/></body></body></worldbody></mujoco>";
+      << '"' << contact.str() << "/></body></body></worldbody></mujoco>";
   return out.str();
 }
 
 class MujocoDrag final : public DragWorld {
  public:
-  MujocoDrag(const DragScene& scene, double step, mjtIntegrator integrator) : scene_(scene) {
+  MujocoDrag(const DragScene& scene, double step, mjtIntegrator integrator, bool tuned) : scene_(scene) {
     mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
-    const std::string xml = model_of(scene);
+    const std::string xml = model_of(scene, step, tuned);
     auto files = std::make_unique<mjVFS>();
     mj_defaultVFS(files.get());
     mj_makeEmptyFileVFS(files.get(), "drag.xml", static_cast<int>(xml.size()));
@@ -102,12 +106,14 @@ class MujocoDrag final : public DragWorld {
 }  // namespace
 
 std::vector<DragMethod> mujoco_drags() {
-  const auto make = [](mjtIntegrator integrator) {
-    return [integrator](const DragScene& scene, double step) -> std::unique_ptr<DragWorld> {
-      return std::make_unique<MujocoDrag>(scene, step, integrator);
+  const auto make = [](mjtIntegrator integrator, bool tuned) {
+    return [=](const DragScene& scene, double step) -> std::unique_ptr<DragWorld> {
+      return std::make_unique<MujocoDrag>(scene, step, integrator, tuned);
     };
   };
-  return {{"mujoco_joints_euler", true, make(mjINT_EULER)}, {"mujoco_joints_implicit", true, make(mjINT_IMPLICIT)}};
+  return {{"mujoco_joints_euler", true, make(mjINT_EULER, false)},
+          {"mujoco_joints_implicit", true, make(mjINT_IMPLICIT, false)},
+          {"mujoco_joints_implicit_tuned", true, make(mjINT_IMPLICIT, true)}};
 }
 
 }  // namespace spring_workbench::benchmark

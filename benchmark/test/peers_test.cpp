@@ -31,7 +31,7 @@ double error_at(const Method& method, const Scenario& scene, int steps_per_inter
 
 TEST(Peers, EveryEngineIsFoundOrNamedAsNotFoundAndTheSolversAreThere) {
   EXPECT_EQ(peers().found.size() + peers().not_found.size(), 5U);
-  EXPECT_GE(peers().methods.size(), 2U + 2U + 7U + peers().found.size() - 1U);
+  EXPECT_GE(peers().methods.size(), 2U + 2U + 9U + peers().found.size() - 1U);
 }
 
 TEST(Peers, NamesAreUnique) {
@@ -81,20 +81,25 @@ TEST(Peers, GeneralSolversAreAsGoodAsTheirToleranceOverTheHandsMotionHoweverItIs
   for (const Scenario& scene : {stretch_scene(1e4), torsion_scene(1e2), six_dof_scene(1.0), six_dof_scene(1e4),
                                 with_sampled_hand(six_dof_scene(1.0)), with_sampled_hand(torsion_scene(1e2))}) {
     const ReferenceSolution reference = reference_solution(scene);
-    for (const double tolerance : {1e-6, 1e-9}) {
-      for (const MethodPtr& method : methods) {
-        if (method->knob() != Method::Knob::tolerance) continue;
+    for (const MethodPtr& method : methods) {
+      if (method->knob() != Method::Knob::tolerance || !method->runs_on(scene)) continue;
+      double coarse = 0.0;
+      for (const double tolerance : {1e-6, 1e-9}) {
         const RunResult run = run_isolated(*method, scene, tolerance, {}, 60.0);
         ASSERT_TRUE(run.finite) << method->name() << scene.name << scene.stiffness_factor;
-        // ARKODE's interpolation between the steps of a stiff method has a lower order than the steps.
-        const double allowed = method->name() == "solver_arkode_dirk" ? 1e5 : 1e3;
-        EXPECT_LT(output_error(scene, reference, run.outputs), allowed * tolerance)
-            << method->name() << ' ' << scene.name << ' ' << scene.stiffness_factor;
+        const double error = output_error(scene, reference, run.outputs);
+        EXPECT_LT(error, 3e2 * tolerance) << method->name() << ' ' << scene.name << ' ' << scene.stiffness_factor;
+        // A thousandth of the tolerance, unless no digits are left.
+        if (coarse > 0.0) {
+          EXPECT_LT(error, std::max(0.1 * coarse, 1e-11)) << method->name() << ' ' << scene.name;
+        }
+        coarse = error;
         ++runs;
       }
     }
   }
-  EXPECT_EQ(runs, 6U * 2U * 8U);
+  // Two more on samples, where CVODE is restarted.
+  EXPECT_EQ(runs, 2U * (4U * 8U + 2U * 10U));
 }
 
 /// Error of a solver for the oscillator y'' = −y, evaluated between the ends of its steps.
@@ -108,7 +113,7 @@ double oscillator_error(const std::function<std::unique_ptr<OdeSolver>(int, OdeS
   solver->begin(0.0, {1.0, 0.0}, tolerance, {1.0, 1.0});
   double error = 0.0;
   for (int i = 1; i * every <= 10.0; ++i) {
-    error = std::max(error, std::abs(solver->advance(i * every, false)[0] - std::cos(i * every)));
+    error = std::max(error, std::abs(solver->advance(i * every, kNever)[0] - std::cos(i * every)));
   }
   return error;
 }
@@ -134,7 +139,7 @@ TEST(Solvers, Dop853TakesAsManyEvaluationsAsItsOrderSays) {
       return true;
     });
     solver->begin(0.0, {1.0, 0.0}, i == 0 ? 1e-6 : 1e-9, {1.0, 1.0});
-    solver->advance(100.0, true);
+    solver->advance(100.0, 100.0);
   }
   EXPECT_GT(evaluations[1], 1.8 * static_cast<double>(evaluations[0]));
   EXPECT_LT(evaluations[1], 3.0 * static_cast<double>(evaluations[0]));
@@ -150,7 +155,7 @@ TEST(Solvers, RadauAndTheImplicitOnesDoNotNeedShortStepsWhereTheEquationIsStiff)
       return true;
     });
     solver->begin(0.0, {1.0}, 1e-6, {1.0});
-    EXPECT_NEAR(solver->advance(10.0, true)[0], std::cos(10.0), 1e-4);
+    EXPECT_NEAR(solver->advance(10.0, 10.0)[0], std::cos(10.0), 1e-4);
     return evaluations;
   };
   EXPECT_LT(counted(&make_radau), 3000);
