@@ -39,7 +39,7 @@ class HoldMaker {
       : fork_(fork), dynamics_(dynamics), gravity_(gravity) {}
 
   /// Makes a hold without strain, at time `now` [s]. Set the hand's motion before using it, or restore a state; then
-  /// `before` may be the hold that it replaces, whose integrator goes on.
+  /// `before` may be the hold that it replaces, whose integrator it takes over.
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now,
                                  ToolHold* before = nullptr) const;
   /// Makes the object, at time `now` [s], a body that no tool holds and that tools can push. Its mass must be > 0.
