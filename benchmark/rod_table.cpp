@@ -142,7 +142,7 @@ class Line {
  public:
   Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& exact,
        const std::string& method, bool ours)
-      : plan_(plan), case_(one), halfway_(with_halfway_outputs(one)), shape_(shape), method_(method), ours_(ours) {
+      : plan_(plan), case_(one), shape_(shape), method_(method), ours_(ours) {
     own_ = ours && !solves_the_equation_of_motion(method);
     reference_ = own_ ? own_limit(one, shape, method, exact) : exact;
     model_error_ = largest_distance(reference_.X_WO, exact.X_WO).position;
@@ -250,16 +250,16 @@ class Line {
   /// which refers to the error at the outputs.
   PoseDistance distance_between(const Setting& setting) const {
     if (is_ours_to_tolerance(setting)) return {};
+    const RodCase halfway = with_halfway_outputs(case_);
     const RodRun between = setting.step > 0.0
-                               ? run(halfway_, setting)
-                               : run_in_time(plan_.tolerance_time_limit, [&] { return run(halfway_, setting); });
+                               ? run(halfway, setting)
+                               : run_in_time(plan_.tolerance_time_limit, [&] { return run(halfway, setting); });
     constexpr double none = std::numeric_limits<double>::infinity();
     return between.finite ? largest_distance(between.X_WO, reference_.halfway) : PoseDistance{none, none};
   }
 
   const RodTablePlan& plan_;
   const RodCase& case_;
-  RodCase halfway_;
   const std::string& shape_;
   std::string method_;
   bool ours_;

@@ -25,7 +25,7 @@ struct StabilityPlan {
   std::vector<MapHand> hands;
   std::vector<MapTail> tails;
   std::size_t cells = 2000;           ///< number for the default integrator and each shape
-  std::size_t cells_of_others = 500;  ///< number of them among which those of each other integrator are chosen
+  std::size_t cells_of_others = 300;  ///< number of them among which those of each other integrator are chosen
   double seconds = 10.0;              ///< duration of the hand's tail [s]
   std::size_t long_one = 200;         ///< one cell in this many has six times that duration
 };
