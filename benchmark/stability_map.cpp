@@ -208,44 +208,58 @@ StabilityPlan stability_plan(bool quick) {
 
 namespace {
 
-/// The pairs of values, by their numbers, that the cells so far contain.
-class PairsOfValues {
- public:
-  /// Whether a cell with these values contains a pair that no earlier one did.
-  bool has_new(const std::vector<std::size_t>& values) {
-    bool is_new = false;
-    for (std::size_t a = 0; a < values.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) is_new = seen_.emplace(a, b, values[a], values[b]).second || is_new;
-    }
-    return is_new;
-  }
-
- private:
-  std::set<std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>> seen_;
+/// A cell and the numbers of its values.
+struct DrawnCell {
+  StabilityCell cell;
+  std::vector<std::size_t> values;
 };
+
+std::vector<DrawnCell> drawn_cells(const StabilityPlan& plan, std::size_t count) {
+  std::mt19937 random(20);
+  std::vector<DrawnCell> drawn(count);
+  for (DrawnCell& one : drawn) {
+    const auto any = [&](const auto& of) { return of[one.values.emplace_back(random() % of.size())]; };
+    one.cell.stiffness_factor = any(plan.stiffness_factors);
+    one.cell.mass = any(plan.masses);
+    one.cell.step = any(plan.steps);
+    one.cell.damping_ratio = any(plan.damping_ratios);
+    one.cell.dofs = any(plan.dofs);
+    one.cell.hand = any(plan.hands);
+    one.cell.tail = any(plan.tails);
+    one.cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
+  }
+  return drawn;
+}
+
+/// Few of these cells that contain every pair of values that all of them contain: first those with many new pairs.
+std::vector<DrawnCell> covering(const std::vector<DrawnCell>& drawn) {
+  std::set<std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>> seen;
+  const auto pairs = [](const DrawnCell& one, const auto& take) {
+    for (std::size_t a = 0; a < one.values.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) take(std::tuple(a, b, one.values[a], one.values[b]));
+    }
+  };
+  std::vector<DrawnCell> chosen;
+  for (std::size_t wanted = 21; wanted > 0; --wanted) {  // two of seven values
+    for (const DrawnCell& one : drawn) {
+      std::size_t unseen = 0;
+      pairs(one, [&](const auto& pair) { unseen += 1 - seen.count(pair); });
+      if (unseen < wanted) continue;
+      pairs(one, [&](const auto& pair) { seen.insert(pair); });
+      chosen.push_back(one);
+    }
+  }
+  return chosen;
+}
 
 }  // namespace
 
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string& integrator, double stiffness_factor) {
   const bool is_default = integrator == validation::name_of(dynamics::DynamicsSettings().integrator);
-  std::mt19937 random(20);
-  std::vector<std::size_t> numbers;
-  const auto any = [&](const auto& values) { return values[numbers.emplace_back(random() % values.size())]; };
-  PairsOfValues pairs;
   std::vector<StabilityCell> cells;
-  for (std::size_t i = 0; i < (is_default ? plan.cells : plan.cells_of_others); ++i) {
-    StabilityCell cell;
-    numbers.clear();
-    cell.stiffness_factor = any(plan.stiffness_factors);
-    cell.mass = any(plan.masses);
-    cell.step = any(plan.steps);
-    cell.damping_ratio = any(plan.damping_ratios);
-    cell.dofs = any(plan.dofs);
-    cell.hand = any(plan.hands);
-    cell.tail = any(plan.tails);
-    cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
-    const bool is_needed = pairs.has_new(numbers) || is_default;
-    if (is_needed && cell.stiffness_factor == stiffness_factor) cells.push_back(cell);
+  for (const DrawnCell& one :
+       is_default ? drawn_cells(plan, plan.cells) : covering(drawn_cells(plan, plan.cells_of_others))) {
+    if (one.cell.stiffness_factor == stiffness_factor) cells.push_back(one.cell);
   }
   std::stable_sort(cells.begin(), cells.end(), [](const StabilityCell& a, const StabilityCell& b) {
     return std::tuple(a.mass, a.step, a.damping_ratio) < std::tuple(b.mass, b.step, b.damping_ratio);

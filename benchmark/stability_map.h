@@ -12,8 +12,7 @@
 namespace spring_workbench::benchmark {
 
 /// The varied parameters. Cells are random combinations (seeded), enough to contain every pair of values. Another
-/// integrator than the default one has fewer: of the first `cells_of_others` those that contain a pair of values which
-/// no earlier one has.
+/// integrator than the default one has fewer: some of the first `cells_of_others` that contain every pair.
 struct StabilityPlan {
   std::vector<std::string> integrators;
   std::vector<std::string> shapes;
@@ -25,7 +24,7 @@ struct StabilityPlan {
   std::vector<MapHand> hands;
   std::vector<MapTail> tails;
   std::size_t cells = 2000;           ///< number for the default integrator and each shape
-  std::size_t cells_of_others = 300;  ///< number of them among which those of each other integrator are chosen
+  std::size_t cells_of_others = 500;  ///< number of them among which those of each other integrator are chosen
   double seconds = 10.0;              ///< duration of the hand's tail [s]
   std::size_t long_one = 200;         ///< one cell in this many has six times that duration
 };
