@@ -232,12 +232,12 @@ def overview(table, picture, drags):
     figure.tight_layout(rect=(0, 0.165, 1, 0.955))
     for x, text in ((0.36, "carried by a hand that is tracked at 50 Hz"), (0.85, "pressed on a plane and dragged")):
         figure.text(x, 0.97, text, ha="center", fontsize=12, fontweight="bold")
-    for axes, x, columns in ((panels[0][0], 0.33, 4), (panels[0][2], 0.805, 2)):
-        place = dict(loc="upper center", bbox_to_anchor=(x, 0.165), ncol=columns, frameon=False, columnspacing=1.2)
-        figure.legend(*axes.get_legend_handles_labels(), fontsize=9.5, **place)
+    for axes, x, columns in ((panels[0][0], 0.33, 3), (panels[0][2], 0.815, 2)):
+        place = dict(loc="upper center", bbox_to_anchor=(x, 0.165), ncol=columns, frameon=False, columnspacing=1.0)
+        figure.legend(*axes.get_legend_handles_labels(), fontsize=8.8, **place)
     notes = "run time; steps or tolerances become finer along a line\npaper: with its model error"
-    figure.text(0.33, 0.055, notes, ha="center", fontsize=9.5)
-    figure.text(0.805, 0.015, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
+    figure.text(0.33, 0.012, notes, ha="center", fontsize=9.5)
+    figure.text(0.815, 0.012, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
     figure.savefig(picture, dpi=140)
 
 
