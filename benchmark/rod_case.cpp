@@ -153,7 +153,7 @@ std::vector<RodCase> synthetic_cases(bool quick) {
   for (const RodCase& one : soft_and_stiff()) cases.push_back(one);
   unsigned seed = 1;
   for (RodCase& one : cases) {
-    one.duration = quick ? 1.0 : 4.0;
+    one.duration = quick ? 0.6 : 4.0;
     one.hand = synthetic_hand(seed, one.duration + 0.5);
     one.fine_hand = synthetic_hand(seed++, one.duration + 0.5, kFineInterval);
   }
