@@ -75,13 +75,7 @@ StabilityRun full_map_cell(const StabilityPlan& plan, std::size_t i) {
   StabilityRun one;
   one.integrator = take(plan.integrators);
   one.shape = take(plan.shapes);
-  one.cell.stiffness_factor = take(plan.stiffness_factors);
-  one.cell.mass = take(plan.masses);
-  one.cell.step = take(plan.steps);
-  one.cell.damping_ratio = take(plan.damping_ratios);
-  one.cell.dofs = take(plan.dofs);
-  one.cell.hand = take(plan.hands);
-  one.cell.tail = take(plan.tails);
+  one.cell = cell_of(plan, take);
   one.cell.seconds = plan.seconds * (std::mt19937(static_cast<unsigned>(i))() % plan.long_one == 0 ? 6.0 : 1.0);
   return one;
 }

@@ -218,14 +218,8 @@ std::vector<DrawnCell> drawn_cells(const StabilityPlan& plan, std::size_t count)
   std::mt19937 random(20);
   std::vector<DrawnCell> drawn(count);
   for (DrawnCell& one : drawn) {
-    const auto any = [&](const auto& of) { return of[one.values.emplace_back(random() % of.size())]; };
-    one.cell.stiffness_factor = any(plan.stiffness_factors);
-    one.cell.mass = any(plan.masses);
-    one.cell.step = any(plan.steps);
-    one.cell.damping_ratio = any(plan.damping_ratios);
-    one.cell.dofs = any(plan.dofs);
-    one.cell.hand = any(plan.hands);
-    one.cell.tail = any(plan.tails);
+    one.cell =
+        cell_of(plan, [&](const auto& values) { return values[one.values.emplace_back(random() % values.size())]; });
     one.cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
   }
   return drawn;

@@ -110,6 +110,20 @@ struct StabilityMap {
   std::vector<StabilityRun> failures;  ///< the worst few of each integrator and shape, worst first
 };
 
+/// A cell of the plan's values, `one_of(values)` in this order; its duration is not set.
+template <typename OneOf>
+StabilityCell cell_of(const StabilityPlan& plan, OneOf&& one_of) {
+  StabilityCell cell;
+  cell.stiffness_factor = one_of(plan.stiffness_factors);
+  cell.mass = one_of(plan.masses);
+  cell.step = one_of(plan.steps);
+  cell.damping_ratio = one_of(plan.damping_ratios);
+  cell.dofs = one_of(plan.dofs);
+  cell.hand = one_of(plan.hands);
+  cell.tail = one_of(plan.tails);
+  return cell;
+}
+
 /// Counts the rows of the cells that have been run; cells of one row must be consecutive.
 StabilityMap map_of(const std::vector<StabilityRun>& cells);
 

@@ -45,7 +45,7 @@ The same arguments give bit-identical output.
 
 assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--trials N] [--seed S] [--out TRIALS.csv]
                 [--rate HZ] [--delay S] [--noise M] [--angle-noise RAD] [--scatter SHARE] [--time-limit S]
-                [--table TABLE.md] [--record HAND.tum]
+                [--table TABLE.csv] [--record HAND.tum]
 
   --scene     a scene whose YAML file has targets: path or package:// URI of the URDF
   --settings  a YAML file of settings for all tools, as for replay
