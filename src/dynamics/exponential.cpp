@@ -6,6 +6,7 @@
 #include "spring_workbench/exponential/collocation_step.h"
 #include "spring_workbench/exponential/refactorisation.h"
 #include "spring_workbench/math/by_size.h"
+#include "step_work.h"
 
 namespace spring_workbench::dynamics {
 
@@ -18,6 +19,7 @@ class Exponential::Core {
   virtual const Response* response(const HeldBody& body, double h) = 0;
   virtual void carry(StrainState& deviation) const = 0;
   virtual void follow(const HeldBody& body, RunError& error) = 0;
+  virtual StepWork work(const HeldBody& body) const = 0;
   virtual void exchange(math::StateArchive& state) = 0;
 };
 
@@ -59,11 +61,11 @@ class Exponential::CoreOf final : public Core {
   }
 
   void follow(const HeldBody& body, RunError& run) override { follow_error(body, run); }
+  StepWork work(const HeldBody& body) const override { return work_of(body, steps_); }
 
   void exchange(math::StateArchive& state) override {
     state(version_);
-    if (version_ < 0) return;  // nothing has been derived from the equations yet
-    state(steps_, refactorisation_);
+    if (version_ >= 0) state(steps_, refactorisation_);  // otherwise nothing has been derived from the equations yet
   }
 
  private:
@@ -127,6 +129,10 @@ void Exponential::follow(const HeldBody& body, RunError& error) {
   if (body.size() > 0) core_->follow(body, error);  // of the last step
 }
 
+std::optional<StepWork> Exponential::work(const HeldBody& body) const {
+  return body.size() > 0 ? std::optional(core_->work(body)) : std::nullopt;
+}
+
 void Exponential::exchange(math::StateArchive& state) {
   int n = n_;
   state(n);
@@ -138,8 +144,7 @@ void Exponential::exchange(math::StateArchive& state) {
 Integrator::Response Exponential::response(const HeldBody& body, const HandleForcing& handle, double h,
                                            const StrainState& state) {
   const Response* known = body.size() > 0 && body.size() == n_ ? core_->response(body, h) : nullptr;
-  if (known != nullptr) return *known;
-  return Integrator::response(body, handle, h, state);
+  return known != nullptr ? *known : Integrator::response(body, handle, h, state);
 }
 
 }  // namespace spring_workbench::dynamics

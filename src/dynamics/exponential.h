@@ -31,6 +31,7 @@ class Exponential final : public Integrator {
              const StrainState& end, StrainState& deviation) override;
   bool follows_errors() const override { return true; }
   void follow(const HeldBody& body, RunError& error) override;
+  std::optional<StepWork> work(const HeldBody& body) const override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
   void exchange(math::StateArchive& state) override;
   bool restores_all() const override { return true; }

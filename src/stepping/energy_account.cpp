@@ -50,6 +50,20 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
   return balance.energy[3] - balance.energy[0] - h * math::sum(weights * balance.power);
 }
 
+double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    const dynamics::StrainState& begin, const dynamics::StrainState& end,
+                    const dynamics::Integrator& integrator) {
+  const std::optional<dynamics::StepWork> step = integrator.work(body);
+  if (!step) return energy_added(body, handle, t, h, begin, end);
+  math::Pack q[rod::max_strain_coordinates], q_dot[rod::max_strain_coordinates];
+  for (int i = 0; i < body.size(); ++i) {
+    q[i] = begin.q[i] + math::Pack{};
+    q_dot[i] = begin.q_dot[i] + math::Pack{};
+  }
+  const dynamics::EnergyBalance before = body.energy_balance(body.forcing(handle, t + math::Pack{}), q, q_dot);
+  return step->energy_at_end - before.energy[0] - step->work;
+}
+
 double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
                      const dynamics::StrainState& begin, const dynamics::StrainState& end) {
   const double t = handle.t;

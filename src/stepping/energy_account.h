@@ -1,6 +1,6 @@
 #pragma once
 
-#include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/dynamics/integrator.h"
 
 namespace spring_workbench::stepping {
 
@@ -14,7 +14,11 @@ Difference difference(const dynamics::HeldBody& body, const dynamics::HandleForc
                       const dynamics::StrainState& state, const dynamics::StrainState& other);
 
 /// Energy of body and fork after a step of `h` to `t + h` [s] beyond what hand, gravity, contact and dampers account
-/// for [J]: their work by Lobatto's rule of four points on the cubics through both ends.
+/// for [J]: their work along the path of the integrator's last step, which was this one, where it has one.
+double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    const dynamics::StrainState& begin, const dynamics::StrainState& end,
+                    const dynamics::Integrator& integrator);
+/// The same with their work by Lobatto's rule of four points on the cubics through both ends.
 double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     const dynamics::StrainState& begin, const dynamics::StrainState& end);
 

@@ -144,10 +144,10 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   return tried;
 }
 
-void StepControl::weigh(const Span& span, double t, double h, const dynamics::StrainState& state, Tried& tried) {
+void StepControl::weigh(const Span& span, double t, double h, const dynamics::StrainState& state, Tried& tried) const {
   const dynamics::HeldBody& body = span.body;
   if (body.returning() || !tried.in_range) return;
-  tried.energy_added = energy_added(body, span.handle, t, h, state, tried.state);
+  tried.energy_added = energy_added(body, span.handle, t, h, state, tried.state, *integrator_);
   // An energy gain of the motion is an error, whatever the estimate of the method.
   if (!body.loaded() && !body.coupled()) tried.energy_error = std::max(tried.energy_error, *tried.energy_added);
 }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "spring_workbench/dynamics/held_body.h"
@@ -27,6 +28,12 @@ struct RunError {
   /// eᵀ spread⁻¹ e ≤ 1. Positive semi-definite.
   Moments spread;
   double uncertainty = 0.0;  ///< largest difference of the last step's error from its estimate, as an amplitude [m √kg]
+};
+
+/// Energy at the end of a step [J], and the work done over it [J] by all that changes the energy: EnergyBalance along
+/// the path of the step.
+struct StepWork {
+  double energy_at_end = 0.0, work = 0.0;
 };
 
 /// Integrates the held body's equation of motion over a step (doc/model.md, "Integrators"). An integrator may keep what
@@ -62,6 +69,8 @@ class Integrator {
   virtual bool follows_errors() const { return false; }
   /// Propagates the run's error over the last step, and adds that step's own error.
   virtual void follow(const HeldBody&, RunError&) {}
+  /// The work over the last step along the method's own path; nothing if it has no more than the step's ends.
+  virtual std::optional<StepWork> work(const HeldBody&) const { return std::nullopt; }
 
   /// How the state at the end of the step depends on a constant generalised force Q over the step, to first order:
   /// Δq = response.q Q, Δq̇ = response.q_dot Q. For contact.

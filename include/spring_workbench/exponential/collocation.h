@@ -17,6 +17,9 @@ struct Collocation {
   static constexpr std::size_t count = 4;
   /// The zeros of c⁴ − 16/7 c³ + 12/7 c² − 16/35 c + 1/35.
   static constexpr std::array<double, count> nodes{0.08858795951270395, 0.40946686444073471, 0.78765946176084706, 1.0};
+  /// Weights of the nodes in an integral over the step, exact for polynomials of degree six (Radau's quadrature).
+  static constexpr std::array<double, count> quadrature{0.22046221117676838, 0.38819346884317188, 0.32884431998005974,
+                                                        0.0625};
   /// Moments at which the defect is sampled: the start, and the extremes of that polynomial between the nodes.
   static constexpr std::array<double, count> samples{0.0, 0.21234054, 0.59053314, 0.91141204};
 

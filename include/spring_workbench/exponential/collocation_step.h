@@ -39,6 +39,14 @@ class CollocationStep {
   };
   const Done& done() const { return done_; }
 
+  /// Strain and rate at the nodes of the last step.
+  SPRING_WORKBENCH_INLINE void path(NodeStrains& q, NodeStrains& q_dot) const {
+    NodeStrains dq, dv;
+    part().deviation(done_.x, dq, dv);
+    Residual<n, Equation>::add(done_.q0, dq, q);
+    Residual<n, Equation>::add(done_.q_dot0, dv, q_dot);
+  }
+
   /// Replaces the linear part.
   void set(const typename Equation::ModalDecomposition& modes) {
     propagator_.set(modes);

@@ -44,6 +44,7 @@ class ExponentialCollocation {
     norm_.set(h_, modes().rates);
     operators_.compute(h_, modes().rates);
   }
+  double h() const { return h_; }  ///< [s] for which they were computed last
   /// Changes whenever the operators do; what is derived from them is valid for one value only.
   long revision() const { return revision_; }
 

@@ -23,13 +23,15 @@ class Residual {
   SPRING_WORKBENCH_INLINE NodeStrains at(const typename Equation::Forcing& forcing, const NodeModes& x) const {
     NodeStrains dq, dv, q, q_dot, r;
     part_.deviation(x, dq, dv);
-    for (std::size_t i = 0; i < n; ++i) {
-      q[i] = q0_[static_cast<int>(i)] + dq[i];
-      q_dot[i] = q_dot0_[static_cast<int>(i)] + dv[i];
-    }
+    add(q0_, dq, q);
+    add(q_dot0_, dv, q_dot);
     equation_.acceleration(forcing, q.data(), q_dot.data(), r.data());
     part_.add_force(dq, dv, r);
     return r;
+  }
+
+  SPRING_WORKBENCH_INLINE static void add(const Strain& start, const NodeStrains& deviation, NodeStrains& sum) {
+    for (std::size_t i = 0; i < n; ++i) sum[i] = start[static_cast<int>(i)] + deviation[i];
   }
 
   /// Returns the defect at the samples: the residual minus the collocation polynomial through its values at the nodes.

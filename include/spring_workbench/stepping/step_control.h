@@ -108,7 +108,7 @@ class StepControl {
 
   Tried try_step(const Span& span, double t, double h, const dynamics::StrainState& state) const;
   /// Computes the energy balance of a trial step that may be accepted.
-  static void weigh(const Span& span, double t, double h, const dynamics::StrainState& state, Tried& tried);
+  void weigh(const Span& span, double t, double h, const dynamics::StrainState& state, Tried& tried) const;
   void take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const;
   void fall_back(Span& span, double t, double h, dynamics::StrainState& state) const;
   /// Takes a 2^level-th part of the span. `failed`: the method failed in the previous part, of the same length, so this

@@ -63,6 +63,36 @@ TEST_P(EveryIntegrator, HasItsOrderOfAccuracy) {
   }
 }
 
+/// Energy changes by the work done, which a method that knows its path knows to the order of its step.
+TEST_P(EveryIntegrator, KnowsTheWorkOfAStepOrDoesNotTellIt) {
+  for (const std::string& shape : test_support::shape_names()) {
+    for (const double zeta : {0.0, 0.3, 1.0}) {
+      std::mt19937 random(11);
+      const Case c = random_case(shape, zeta, 1.0, random);
+      const auto error = [&](double h) {
+        const auto integrator = test_support::make_integrator(GetParam());
+        StrainState state = carried(*integrator, c, 0.0, 0.01, 5, c.held.zero_state());
+        const auto balance = [&](double t) {
+          math::Pack q[rod::max_strain_coordinates], q_dot[rod::max_strain_coordinates];
+          for (int i = 0; i < c.held.size(); ++i) {
+            q[i] = state.q[i] + math::Pack{};
+            q_dot[i] = state.q_dot[i] + math::Pack{};
+          }
+          return c.held.energy_balance(c.held.forcing(c.hand, t + math::Pack{}), q, q_dot).energy[0];
+        };
+        const double before = balance(0.05);
+        integrator->step(c.held, c.hand, 0.05, h, state);
+        const std::optional<StepWork> step = integrator->work(c.held);
+        if (!step) return 0.0;
+        EXPECT_NEAR(step->energy_at_end, balance(0.05 + h), 1e-12 * (1.0 + std::abs(before)));
+        return std::abs(step->energy_at_end - before - step->work);
+      };
+      const double h = 1.0 / c.omega, coarse = error(h), fine = error(0.5 * h);
+      EXPECT_LE(fine, 1e-13 + coarse / 64.0) << shape << " " << zeta << " " << coarse << " " << fine;
+    }
+  }
+}
+
 TEST_P(EveryIntegrator, EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

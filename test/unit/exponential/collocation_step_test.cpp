@@ -86,6 +86,17 @@ Eigen::Vector2d run(const Pendulum& pendulum, const Decomposition& part, Pendulu
 double smooth(double t) { return std::sin(2.0 * t); }
 double cubic(double t) { return 1.0 + t * (2.0 + t * (-3.0 + t)); }
 
+TEST(Collocation, IntegratesPolynomialsOfDegreeSix) {
+  for (int degree = 0; degree < 8; ++degree) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < Collocation::count; ++i) {
+      sum += Collocation::quadrature[i] * std::pow(Collocation::nodes[i], degree);
+    }
+    const double error = std::abs(sum - 1.0 / (degree + 1));
+    EXPECT_EQ(error < 1e-15, degree < 7) << degree << " " << error;
+  }
+}
+
 /// A linear equation is solved exactly if its forcing is a cubic in each step, with one step or many.
 TEST(CollocationStep, IsExactForALinearEquationUnderACubic) {
   constexpr double duration = 1.3;

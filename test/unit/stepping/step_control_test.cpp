@@ -9,6 +9,7 @@
 
 #include "support/held_cases.h"
 #include "support/named.h"
+#include "support/tracked_hand.h"
 
 namespace spring_workbench::stepping::step_control_test {
 namespace {
@@ -136,6 +137,30 @@ TEST(StepControl, GoesOnInWholeStepsWhereALoadAndTheSpringsCancel) {
       }
     }
   }
+}
+
+/// What the dampers of a tracked hand's fork take from it within a step is known along the path of the step, so no step
+/// seems to gain energy for want of knowing it.
+TEST(StepControl, TakesOneStepFromSampleToSampleOfATrackedHand) {
+  int samples = 0, steps = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    std::mt19937 random(static_cast<unsigned>(trial));
+    const std::vector<std::string> shapes = test_support::shape_names();
+    Case c =
+        random_case(shapes[static_cast<std::size_t>(trial) % shapes.size()], trial % 2 == 0 ? 1.0 : 0.3, 1.0, random);
+    motion::PoseTrack track = test_support::tracked_hand(1.0, 1e-4, random);
+    const StepControl control(test_support::make_integrator("exponential"));
+    StepControl::Memory memory;
+    StrainState state = c.held.zero_state();
+    for (double t = 0.0; t < 0.99; t = c.hand.end()) {
+      c.hand = track.segment(t);
+      const ControlledStep step = control.advance(c.held, c.hand, t, c.hand.end() - t, state, memory);
+      ASSERT_TRUE(step.accepted);
+      ++samples;
+      steps += step.steps;
+    }
+  }
+  EXPECT_LT(steps, 1.02 * samples);
 }
 
 /// A strain that is finite, but so far off that the equations overflow and have no modes.
