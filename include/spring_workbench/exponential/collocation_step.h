@@ -41,10 +41,9 @@ class CollocationStep {
 
   /// Strain and rate at the nodes of the last step.
   SPRING_WORKBENCH_INLINE void path(NodeStrains& q, NodeStrains& q_dot) const {
-    NodeStrains dq, dv;
-    part().deviation(done_.x, dq, dv);
-    Residual<n, Equation>::add(done_.q0, dq, q);
-    Residual<n, Equation>::add(done_.q_dot0, dv, q_dot);
+    part().deviation(done_.x, q, q_dot);
+    Residual<n, Equation>::add(done_.q0, q, q);
+    Residual<n, Equation>::add(done_.q_dot0, q_dot, q_dot);
   }
 
   /// Replaces the linear part.
@@ -113,9 +112,8 @@ class CollocationStep {
     done_.q_dot0 = q_dot0;
     done_.residual = r;
     done_.x = mixer_.last().x;
-    history_.keep(t, h, linear, by_forcing, r);
     const bool solved = convergence_.converged() && end.allFinite();
-    if (!solved) history_.clear();
+    solved ? history_.keep(t, h, linear, by_forcing, r) : history_.clear();
     return {solved, error};
   }
 
