@@ -2,11 +2,16 @@
 
 #include "spring_workbench/dynamics/held_body.h"
 #include "spring_workbench/math/positive_definite.h"
-#include "tip_motion.h"
+#include "spring_workbench/rod/tip_motion.h"
 
 // The equation of motion itself, written once for one moment (`S` double) and for several side by side (math::Pack).
 
 namespace spring_workbench::dynamics {
+
+template <typename S>
+SPRING_WORKBENCH_INLINE void HeldBody::find_tip(const S* q, const S* q_dot, rod::TipOf<S>& tip) const {
+  bends_ ? shape_->tip(q, q_dot, tip) : straight_.tip(q, tip);
+}
 
 /// The object's motion if the strain rates were constant, and what that takes.
 template <typename S>
@@ -32,8 +37,8 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
   r.p_HO = tip.p_HE + r.r_EO;
   math::Three<S> w_rel = math::none<S>(), v_E = math::none<S>();  // of the tip, in the turning frame H
   math::Three<S> alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
-  add_tip_motion(tip, coordinates_.count(), q_dot, w_rel, v_E);
-  if (returning()) add_tip_motion(tip, coordinates_.count(), q_ddot, alpha_rel, a_E);
+  rod::add_tip_motion(tip, coordinates_.count(), q_dot, w_rel, v_E);
+  if (returning()) rod::add_tip_motion(tip, coordinates_.count(), q_ddot, alpha_rel, a_E);
   r.v_rel = v_E + math::cross(w_rel, r.r_EO);
   const math::Three<S>& w_H = h.w_B;
   const math::Three<S> a = h.a_B + a_E + math::cross(h.alpha_B, r.p_HO) +
@@ -68,7 +73,7 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::rigid(const ForcingOf<S>& h
       coordinates_.prescribe(math::lane(handle.t, k), k, q_all, q_dot_all, q_ddot_all);
     }
   }
-  shape_->tip(q_all, q_dot_all, tip);
+  find_tip(q_all, q_dot_all, tip);
   return without_strain_acceleration(handle, tip, q_dot_all, q_ddot_all);
 }
 

@@ -36,11 +36,4 @@ HandleForcing HandleForcings::at(int i) const {
   return f;
 }
 
-HandleForcing HeldBody::with_frames_at_rest(HandleForcing handle) const {
-  for (std::size_t i = 0; i < handle.seen.count; ++i) {
-    handle.seen.in_frame(i).v_AB = handle.seen.in_frame(i).w_AB = math::none<double>();
-  }
-  return handle;
-}
-
 }  // namespace spring_workbench::dynamics

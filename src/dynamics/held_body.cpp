@@ -3,12 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "modal_damping.h"
+#include "spring_workbench/rod/modal_damping.h"
 
 namespace spring_workbench::dynamics {
 
 HeldBody::HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInertia& body, double gravity)
-    : shape_(std::move(shape)), body_(body), gravity_(gravity), coordinates_(shape_->size()) {
+    : shape_(std::move(shape)), straight_(*shape_), body_(body), gravity_(gravity), coordinates_(shape_->size()) {
   p_OE_ = body.X_OE.translation();
   p_EO_ = -(body.X_OE.linear().transpose() * p_OE_);
   R_EO_ = body.X_OE.linear().transpose();
@@ -18,20 +18,22 @@ HeldBody::HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInert
 
 void HeldBody::changed() {
   ++version_;
-  set_modal_damping();
+  derive();
 }
 
 void HeldBody::exchange(math::StateArchive& state) {
   state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, external_W_, loaded_,
         couplings_);
-  if (state.sets()) set_modal_damping();
+  if (state.sets()) derive();
 }
 
-void HeldBody::set_modal_damping() {
+void HeldBody::derive() {
+  bends_ = !coordinates_.is_off(shape_->bend());
+  last_tip_.known = false;
   if (!modal_) return;
   const rod::StrainVector zero = rod::StrainVector::Zero(coordinates_.count());
   Matrix3d I_H;
-  D_modal_ = modal_damping(mass_matrix(kinematics({zero, zero}), I_H), stiffness(), modal_ratio_);
+  D_modal_ = rod::modal_damping(mass_matrix(kinematics({zero, zero}), I_H), stiffness(), modal_ratio_);
 }
 
 double HeldBody::axial_inertia() const {

@@ -2,8 +2,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "equation_of_motion.h"
 #include "spring_workbench/dynamics/held_body.h"
-#include "tip_motion.h"
+#include "spring_workbench/rod/tip_motion.h"
 
 namespace spring_workbench::dynamics {
 
@@ -15,7 +16,7 @@ const rod::TipOf<double>& HeldBody::tip(const double* q, const double* q_dot, bo
   if (same) return last.tip;
   std::copy_n(q, n, last.q.begin());
   std::copy_n(q_dot, n, last.q_dot.begin());
-  shape_->tip(q, q_dot, last.tip);
+  find_tip(q, q_dot, last.tip);
   last.known = true;
   return last.tip;
 }
@@ -100,8 +101,8 @@ motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& 
   const rod::TipOf<double>& tip = this->tip(q, rate, q_ddot != nullptr);
   // Of the tip, in the turning frame H.
   math::Three<double> w = math::none<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
-  add_tip_motion(tip, coordinates_.count(), rate, w, v);
-  if (q_ddot != nullptr) add_tip_motion(tip, coordinates_.count(), acceleration, alpha, a);
+  rod::add_tip_motion(tip, coordinates_.count(), rate, w, v);
+  if (q_ddot != nullptr) rod::add_tip_motion(tip, coordinates_.count(), acceleration, alpha, a);
   const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_), p_HO = tip.p_HE + r_EO,
                             v_rel = v + math::cross(w, r_EO);
   const math::Three<double> w_H = math::three(h.angular_velocity), alpha_H = math::three(h.angular_acceleration);

@@ -33,9 +33,9 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
     next.q_dot += change;
     next.q = state.q + h * next.q_dot;
     a = body.acceleration(end, next.q, next.q_dot);
-    const double size = change.norm();
+    const double size = motion.size(change);
     if (i == 0) first_change = size;
-    converged = size <= newton_tolerance * (first_change + next.q_dot.norm() + next.q.norm() / h);
+    converged = size <= newton_tolerance * (first_change + motion.size(next.q_dot) + motion.size(next.q) / h);
     if (i > 0 && !(size < last_change)) {
       converged = converged || size < newton_rounding * first_change;
       break;

@@ -5,8 +5,8 @@ namespace {
 
 // Of one-sided differences, which leave half of the digits. With larger ones, methods that treat the derivatives as
 // exact lose their order if steps are short.
-constexpr double strain_difference = 3e-8;  ///< times the inverse length
-constexpr double rate_difference = 3e-7;    ///< times the inverse length [1/s]
+constexpr double strain_difference = 3e-8;  ///< in units of the coordinate
+constexpr double rate_difference = 3e-7;    ///< in units of the coordinate [1/s]
 
 }  // namespace
 
@@ -21,17 +21,17 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
                                    const rod::StrainVector& q_ddot)
     : LinearisedMotion(body, handle, state.q) {
   const rod::StrainMatrix stiffness = K, damping = D;
-  const double dq = strain_difference / body.shape().length(), dv = rate_difference / body.shape().length();
+  const rod::StrainVector units = body.units();
   StrainState moved = state;
   for (int j = 0; j < body.size(); ++j) {
-    moved.q[j] += dq;
+    moved.q[j] += strain_difference * units[j];
     const double step_q = moved.q[j] - state.q[j];
     rod::StrainVector force = M * (body.acceleration(handle, moved.q, state.q_dot) - q_ddot);
     force += stiffness.col(j) * step_q;
     K.col(j) -= force / step_q;
     moved.q[j] = state.q[j];
 
-    moved.q_dot[j] += dv;
+    moved.q_dot[j] += rate_difference * units[j];
     const double step_v = moved.q_dot[j] - state.q_dot[j];
     force = M * (body.acceleration(handle, state.q, moved.q_dot) - q_ddot);
     force += damping.col(j) * step_v;

@@ -16,12 +16,13 @@ rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& h
   const int n = body.size();
   rod::StrainMatrix stiffness(n, n);
   const rod::StrainVector rest = rod::StrainVector::Zero(n);
-  const double moved = 1e-5 / body.shape().length();
+  const rod::StrainVector moved = 1e-5 * body.units();
   for (int j = 0; j < n; ++j) {
     rod::StrainVector up = q, down = q;
-    up[j] += moved;
-    down[j] -= moved;
-    stiffness.col(j) = (body.acceleration(handle, down, rest) - body.acceleration(handle, up, rest)) / (2.0 * moved);
+    up[j] += moved[j];
+    down[j] -= moved[j];
+    stiffness.col(j) =
+        (body.acceleration(handle, down, rest) - body.acceleration(handle, up, rest)) / (up[j] - down[j]);
   }
   return stiffness;
 }

@@ -12,6 +12,8 @@ StrainVector Bushing::diagonal(const PerDof& per_dof, double slope) const {
   return of;
 }
 
+StrainVector Bushing::units() const { return diagonal({length(), length(), 1.0}, 1.0); }
+
 StrainVector Bushing::stiffness(const PerDof& k) const {
   return diagonal(k, slope_stiffness_ && k.bend > 0.0 ? *slope_stiffness_ : k.bend * length() * length() / 3.0);
 }

@@ -14,6 +14,7 @@ class Bushing final : public ShapeModel {
 
   int size() const override { return 6; }
   CoordinateRange bend() const override { return {0, 4}; }
+  StrainVector units() const override;
   StrainVector stiffness(const PerDof& k) const override;
   StrainVector damping(const PerDof& c, const PerDof& k) const override;
   using ShapeModel::tip;

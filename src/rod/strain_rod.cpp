@@ -28,6 +28,12 @@ const math::GaussLegendre<nodes>& rule() {
 
 StrainRod::StrainRod(double length, int bend_terms) : ShapeModel(length), bend_terms_(bend_terms) {}
 
+StrainVector StrainRod::units() const {
+  StrainVector units = StrainVector::Constant(size(), 1.0 / length());
+  units[stretch().begin] = 1.0;
+  return units;
+}
+
 StrainVector StrainRod::stiffness(const PerDof& k) const {
   const double L = length();
   // A constant curvature cannot match the cantilever's linear one; with L³/4 small tip deflections agree.

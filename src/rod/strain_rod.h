@@ -12,6 +12,7 @@ class StrainRod final : public ShapeModel {
 
   int size() const override { return 2 * bend_terms_ + 2; }
   CoordinateRange bend() const override { return {0, 2 * bend_terms_}; }
+  StrainVector units() const override;
   StrainVector stiffness(const PerDof& k) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;

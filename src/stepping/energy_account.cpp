@@ -6,6 +6,17 @@
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::stepping {
+namespace {
+
+/// Returns the same forcing with the frames of the couplings at rest in the frame of the handle.
+dynamics::HandleForcing with_frames_at_rest(dynamics::HandleForcing handle) {
+  for (std::size_t i = 0; i < handle.seen.count; ++i) {
+    handle.seen.in_frame(i).v_AB = handle.seen.in_frame(i).w_AB = math::none<double>();
+  }
+  return handle;
+}
+
+}  // namespace
 
 Difference difference(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
                       const dynamics::StrainState& state, const dynamics::StrainState& other) {
@@ -67,7 +78,7 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
 double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
                      const dynamics::StrainState& begin, const dynamics::StrainState& end) {
   const double t = handle.t;
-  const dynamics::HandleForcing still = body.with_frames_at_rest(handle);
+  const dynamics::HandleForcing still = with_frames_at_rest(handle);
   const dynamics::StrainState at_rest{begin.q, 0.0 * begin.q_dot};
   const auto energy = [&](const dynamics::StrainState& s) {
     return 0.5 * s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot) + body.elastic_energy(t, s) +

@@ -28,6 +28,10 @@ class ActiveCoordinates {
   /// Returns the coordinate of the shape model that is the `i`-th active one.
   int operator[](int i) const { return active_[static_cast<std::size_t>(i)]; }
   bool returning() const { return returning_ > 0; }
+  /// Returns whether the coordinates of a DOF, which are switched together, are off, and none returns to zero.
+  bool is_off(const rod::CoordinateRange& range) const {
+    return !returning() && mode_[static_cast<std::size_t>(range.begin)] == Mode::off;
+  }
 
   /// Switches the coordinates of a DOF on or off. One that goes off while strained in the state `full` returns to zero
   /// from time `t` [s] on with the time constant `return_time` [s].

@@ -10,6 +10,7 @@
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/rod/shape_model.h"
+#include "spring_workbench/rod/straight_rod.h"
 
 namespace spring_workbench::dynamics {
 
@@ -113,14 +114,13 @@ class HeldBody {
   /// Detaches couplings; see Couplings::detach.
   void detach(std::size_t kept) { couplings_.detach(kept); }
   bool coupled() const { return !couplings_.empty(); }
-  /// Returns the same forcing with the frames of the couplings at rest in the frame of the handle.
-  HandleForcing with_frames_at_rest(HandleForcing handle) const;
   /// Returns the sum of the couplings for a state of the body.
   Couplings::Reading read_couplings(const HandleForcing& handle, const StrainState& state) const;
 
   int size() const { return coordinates_.size(); }  ///< number of active coordinates
   const ActiveCoordinates& coordinates() const { return coordinates_; }
   StrainState zero_state() const;
+  rod::StrainVector units() const { return coordinates_.gather(shape_->units()); }  ///< of the active coordinates
   rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
   rod::StrainMatrix damping() const;    ///< D, active coordinates
   /// K and D including the springs and dampers of the couplings at the strain `q`.
@@ -176,6 +176,8 @@ class HeldBody {
     Matrix3d R_HO;
     rod::StrainJacobian linear, angular;
   };
+  template <typename S>
+  void find_tip(const S* q, const S* q_dot, rod::TipOf<S>& tip) const;  ///< for strain and rates of all coordinates
   /// Computes the tip for strain and strain rates of all coordinates, or returns the last result if it was for the same
   /// ones. Without `needs_rates`, only what depends on the strain alone is valid.
   const rod::TipOf<double>& tip(const double* q, const double* q_dot, bool needs_rates) const;
@@ -201,9 +203,11 @@ class HeldBody {
   /// Returns the coefficients of the DOFs' dampers for these damping ratios.
   rod::PerDof damping_of(const rod::PerDof& stiffness, const rod::PerDof& ratio) const;
   void changed();
-  void set_modal_damping();  ///< for the active coordinates
+  void derive();  ///< what follows from springs and DOFs
 
   std::shared_ptr<const rod::ShapeModel> shape_;
+  rod::StraightRod straight_;
+  bool bends_ = true;  ///< whether the bend is on, or a DOF returns to zero
   BodyInertia body_;
   Vector3d p_OE_, p_EO_;  ///< grasp in O; centre of mass in E
   Matrix3d R_EO_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "spring_workbench/dynamics/held_body.h"
 
@@ -14,6 +15,8 @@ struct LinearisedMotion {
                    const rod::StrainVector& q_ddot);
   /// With springs and dampers alone.
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
+  /// Size of a change of the rates, all coordinates together: the root of twice its kinetic energy.
+  double size(const rod::StrainVector& q_dot) const { return std::sqrt(q_dot.dot(M * q_dot)); }
 };
 
 /// Solves `(M + d D + d² K) x = b`, scaled to unit diagonal, so that light and heavy coordinates can be combined.

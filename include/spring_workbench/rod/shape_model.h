@@ -55,6 +55,8 @@ class ShapeModel {
   virtual CoordinateRange bend() const = 0;
   CoordinateRange torsion() const { return {size() - 2, 1}; }
   CoordinateRange stretch() const { return {size() - 1, 1}; }
+  /// The unit of each coordinate on this rod: changes by it move or turn the tip by about length() or 1 rad.
+  virtual StrainVector units() const = 0;
 
   /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J], for the stiffness of the DOFs [N/m, N/m, N·m/rad].
   virtual StrainVector stiffness(const PerDof& k) const = 0;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/rod/straight_rod.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/named.h"
 
@@ -104,6 +105,46 @@ TEST_P(EveryShape, OtherCoordinatesAreOfTheSameTipAndMotionAndStoreNoMore) {
     EXPECT_LE(q1.segment(2, 3).norm(), q.segment(2, 3).norm());
   }
   EXPECT_EQ(changed > 5, GetParam() == "bushing");
+}
+
+/// Wound up by several turns or not, stretched or compressed.
+TEST_P(EveryShape, WithoutBendTheTipIsThatOfAStraightRod) {
+  const StraightRod straight(*shape);
+  const bool bushing = shape->strain_is_pose();
+  std::uniform_real_distribution<double> angle(bushing ? -3.0 : -60.0, bushing ? 3.0 : 60.0), stretch(-0.9, 3.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    StrainVector q = zero(*shape), v = zero(*shape);
+    const int torsion = shape->torsion().begin, stretches = shape->stretch().begin;
+    q[torsion] = angle(random) * shape->units()[torsion];
+    q[stretches] = stretch(random) * shape->units()[stretches];
+    v[torsion] = angle(random);
+    v[stretches] = stretch(random);
+    TipOf<double> general{}, tip{};
+    shape->tip(q.data(), v.data(), general);
+    straight.tip(q.data(), tip);
+    EXPECT_LT((math::matrix(tip.R_HE, 0) - math::matrix(general.R_HE, 0)).norm(), 1e-9);
+    EXPECT_LT(math::vector(tip.p_HE - general.p_HE).norm(), 1e-9 * L);
+    for (const int c : {torsion, stretches}) {
+      EXPECT_LT(math::vector(tip.angular[c] - general.angular[c]).norm(), 1e-9);
+      EXPECT_LT(math::vector(tip.linear[c] - general.linear[c]).norm(), 1e-9 * L);
+    }
+    EXPECT_LT(math::vector(tip.angular_bias - general.angular_bias).norm(), 1e-8 * v.squaredNorm());
+    EXPECT_LT(math::vector(tip.linear_bias - general.linear_bias).norm(), 1e-8 * v.squaredNorm());
+  }
+}
+
+/// A coordinate that changes by a thousandth of its unit moves the tip by a few thousandths of the length, or turns it
+/// by a few milliradians.
+TEST_P(EveryShape, UnitsAreOfTheSizeOfTheRod) {
+  const StrainVector units = shape->units();
+  const RigidTransform rest = tip_pose(*shape, zero(*shape));
+  for (int i = 0; i < shape->size(); ++i) {
+    const RigidTransform X = tip_pose(*shape, 1e-3 * units[i] * StrainVector::Unit(shape->size(), i));
+    const double moved = (X.translation() - rest.translation()).norm() / L,
+                 turned = math::log_so3(rest.linear().transpose() * X.linear()).norm();
+    EXPECT_GT(moved + turned, 1e-4) << i;
+    EXPECT_LT(moved + turned, 2e-3) << i;
+  }
 }
 
 TEST_P(EveryShape, SmallDeflectionFollowsTheStiffness) {

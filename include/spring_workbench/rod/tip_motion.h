@@ -2,12 +2,12 @@
 
 #include "spring_workbench/rod/shape_model.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::rod {
 
 /// Adds what `size` strain rates (or accelerations) contribute to the angular and linear velocity (acceleration) of the
 /// tip.
 template <typename S>
-SPRING_WORKBENCH_INLINE void add_tip_motion(const rod::TipOf<S>& tip, int size, const S* rate, math::Three<S>& angular,
+SPRING_WORKBENCH_INLINE void add_tip_motion(const TipOf<S>& tip, int size, const S* rate, math::Three<S>& angular,
                                             math::Three<S>& linear) {
   for (int i = 0; i < size; ++i) {
     angular += rate[i] * tip.angular[i];
@@ -15,4 +15,4 @@ SPRING_WORKBENCH_INLINE void add_tip_motion(const rod::TipOf<S>& tip, int size, 
   }
 }
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::rod

@@ -1,4 +1,4 @@
-#include "modal_damping.h"
+#include "spring_workbench/rod/modal_damping.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
@@ -6,13 +6,13 @@
 
 #include "spring_workbench/math/spatial.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::rod {
 
 // For the coordinates with stiffness: 2 ζ K^½ (K^½ M⁻¹ K^½)^-½ K^½, from the singular values of L⁻¹ K^½ with M = L Lᵀ,
 // so that soft coordinates keep their digits next to stiff ones.
-rod::StrainMatrix modal_damping(const rod::StrainMatrix& M, const rod::StrainVector& K, double ratio) {
+StrainMatrix modal_damping(const StrainMatrix& M, const StrainVector& K, double ratio) {
   const Eigen::Index n = K.size();
-  rod::StrainMatrix root = rod::StrainMatrix::Zero(n, n);  // its first `stiff` columns
+  StrainMatrix root = StrainMatrix::Zero(n, n);  // its first `stiff` columns
   Eigen::Index stiff = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (K[i] > 0.0) root(i, stiff++) = std::sqrt(K[i]);
@@ -24,9 +24,9 @@ rod::StrainMatrix modal_damping(const rod::StrainMatrix& M, const rod::StrainVec
   Matrix6d of_modes = Matrix6d::Zero();
   of_modes.topLeftCorner(n, stiff) = M.llt().matrixL().solve(root);
   const Eigen::JacobiSVD<Matrix6d> modes(of_modes, Eigen::ComputeFullV);
-  const rod::StrainMatrix V = modes.matrixV().topLeftCorner(stiff, stiff);
-  const rod::StrainVector frequencies = modes.singularValues().head(stiff);
+  const StrainMatrix V = modes.matrixV().topLeftCorner(stiff, stiff);
+  const StrainVector frequencies = modes.singularValues().head(stiff);
   return 2.0 * ratio * root * V * frequencies.cwiseInverse().asDiagonal() * V.transpose() * root.transpose();
 }
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::rod
