@@ -32,7 +32,7 @@ class UnitMassOnFork {
     const auto force = [&](const rod::StrainVector& at) -> rod::StrainVector {
       return held_.mass_matrix(0.0, at) * held_.acceleration(handle, at, rod::StrainVector::Zero(at.size()));
     };
-    q_ = stepping::find_strain(held_, 0.0, force, q_, 1e-10 * held_.gravity());
+    q_ = stepping::find_strain(held_, 0.0, force, q_).q;
   }
   double extension() const { return std::abs(held_.shape().extension(q_)); }  ///< [m]
   double deflection() const {                                                 ///< of the tip [m]

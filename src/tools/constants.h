@@ -27,9 +27,6 @@ constexpr double still_speed = 1e-7;
 constexpr double still_acceleration = 1e-6;
 /// Distance from the origin beyond which a step is rejected [m]. Test: none: no value tried makes one fail.
 constexpr double largest_distance = 1e6;
-/// Largest relative error of the generalised force that the springs exert after a regrasp. Test:
-/// TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
-constexpr double regrasp_tolerance = 1e-12;
 /// Natural frequency of the object on the stiff springs that replace the DOFs that are off in a follower fork [rad/s].
 /// If smaller, these DOFs yield under the object's weight. If larger, contact, which is solved to a micrometre, does
 /// not determine how two such forks share a load. Test: SharedLaw.WhatIsOffInBothForksSharesThePressOnTheBench at 1e4,

@@ -118,9 +118,9 @@ class ForkBody : public ToolHold {
   /// contact.
   Wrench rod_load(const motion::MotionState& object) const;
   Wrench pull() const { return state_.pull_W ? *state_.pull_W : rod_load(object_with_acceleration()); }
-  /// Returns the strain at which the springs exert `pull_W` on the object with orientation `R_WO`; the current strain
-  /// if there is none.
-  rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
+  /// Returns the strain at which the springs exert `pull_W` on the object with orientation `R_WO`; the current strain,
+  /// counted as a fallback, if none is found.
+  rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO);
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates>;
   Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
   Jacobian jacobian_W(const Matrix3d& R_WH, double t) const;

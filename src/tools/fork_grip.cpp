@@ -25,8 +25,10 @@ Wrench ForkBody::spring_pull() const {
   return to_wrench(to_vector(springs) - math::least_squares(onto_coordinates, generalised));
 }
 
-rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const {
+rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R_WO) {
   const rod::StrainVector present = state_.strain.q, K = held_.stiffness();
+  if (present.size() == 0) return present;
+  const rod::StrainVector mass = held_.mass_matrix(state_.t, present).diagonal();
   const Vector3d force_O = R_WO.transpose() * pull_W.force, moment_O = R_WO.transpose() * pull_W.moment;
   const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const auto missing = [&](const rod::StrainVector& q) -> rod::StrainVector {
@@ -34,13 +36,13 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
     const Vector6d load = to_vector(Wrench{R_HO * force_O, R_HO * moment_O});
     rod::StrainVector f = -(held_.object_jacobian(state_.t, q).transpose() * load) - held_.elastic_force(state_.t, q);
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      if (!(K[i] > 0.0)) f[i] = present[i] - q[i];  // no spring in this coordinate
+      if (!(K[i] > 0.0)) f[i] = mass[i] * (present[i] - q[i]);  // without a spring: one of 1 rad/s holds it there
     }
     return f;
   };
-  const double small = regrasp_tolerance * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
-  const rod::StrainVector q = stepping::find_strain(held_, state_.t, missing, present, small);
-  return missing(q).norm() < 1e-6 * small / regrasp_tolerance ? q : present;
+  const stepping::FoundStrain under = stepping::find_strain(held_, state_.t, missing, present);
+  if (!under.found) ++estimates_.fallback;
+  return under.found ? under.q : present;
 }
 
 void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {

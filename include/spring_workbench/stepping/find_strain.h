@@ -6,12 +6,17 @@
 
 namespace spring_workbench::stepping {
 
-/// Returns the strain of `held` at which the norm of `force`, a generalised force on its active coordinates, is at most
-/// `small`: by Newton's method from `q` at time `t` [s], in which each step is halved until the force decreases. If
-/// there is no convergence, returns the strain with the smallest force found. The result is always possible for the
-/// shape.
-rod::StrainVector find_strain(const dynamics::HeldBody& held, double t,
-                              const std::function<rod::StrainVector(const rod::StrainVector&)>& force,
-                              rod::StrainVector q, double small);
+struct FoundStrain {
+  rod::StrainVector q;
+  bool found = false;  ///< otherwise the force is not zero there
+};
+
+/// Finds the strain of `held` at which `force`, a generalised force on its active coordinates, is zero, by Newton's
+/// method from the strain `q` at time `t` [s], in which each step is halved until the force decreases. The size of a
+/// force is the acceleration that it gives the body, all coordinates together; what counts as zero is a fraction of the
+/// forces at no strain and at the start. If that is not reached, the result is the strain with the smallest force that
+/// was tried. The result is always possible for the shape.
+FoundStrain find_strain(const dynamics::HeldBody& held, double t,
+                        const std::function<rod::StrainVector(const rod::StrainVector&)>& force, rod::StrainVector q);
 
 }  // namespace spring_workbench::stepping
