@@ -19,12 +19,12 @@ double range_used(const dynamics::HeldBody& body, double t, const rod::StrainVec
 
 rod::StrainVector range_slope(const dynamics::HeldBody& body, double t, const rod::StrainVector& q) {
   rod::StrainVector g(q.size());
-  const double dq = range_difference / body.shape().length();
+  const rod::StrainVector dq = range_difference * body.units();
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     rod::StrainVector up = q, down = q;
-    up[i] += dq;
-    down[i] -= dq;
-    g[i] = (range_used(body, t, up) - range_used(body, t, down)) / (2.0 * dq);
+    up[i] += dq[i];
+    down[i] -= dq[i];
+    g[i] = (range_used(body, t, up) - range_used(body, t, down)) / (up[i] - down[i]);
   }
   return g;
 }
@@ -38,11 +38,9 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     return 0.5 * s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot);
   };
   // Against a contact's load, which holds for one step, only what moves counts.
-  const auto gained = [&](const dynamics::StrainState& s) {
-    return body.loaded() ? kinetic(s) : energy_gained(body, handle, begin, s);
+  const auto gained = [&, moving = kinetic(end)](const dynamics::StrainState& s) {
+    return body.loaded() ? kinetic(s) - moving : energy_gained(body, handle, begin, s);
   };
-  // What the step itself gained; the stop adds nothing.
-  const double allowed = std::max(0.0, gained(end));
   const dynamics::LinearisedMotion motion(body, handle, begin.q);
   const dynamics::ImplicitMatrix step(motion, h);
   // Not further in than it is already.
@@ -52,21 +50,24 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     const rod::StrainVector g = slope(q), moved = step.solve(g);
     q -= (used(q) - target) / g.dot(moved) * moved;
   }
-  // Beyond what the motion's energy reaches, or not inside: where it is on its way.
-  const bool reached = used(q) < 1.0 && gained({q, 0.0 * end.q_dot}) <= allowed;
-  if (!reached) {
+  // It adds nothing, whatever the step has gained out of the range.
+  const auto allowed = [&](const rod::StrainVector& at) {
+    return used(at) < 1.0 && gained({at, 0.0 * end.q_dot}) <= 0.0;
+  };
+  if (!allowed(q)) {
     double shortest = 0.0, longest = 1.0;
     for (int k = 0; k < most_bisections; ++k) {
       const double part = 0.5 * (shortest + longest);
-      (used(begin.q + part * (end.q - begin.q)) < 1.0 ? shortest : longest) = part;
+      (allowed(begin.q + part * (end.q - begin.q)) ? shortest : longest) = part;
     }
     q = begin.q + shortest * (end.q - begin.q);
   }
   end.q = q;
   // Compressed and wound up at once, it is at two stops.
   const Eigen::LLT<rod::StrainMatrix> mass(motion.M);
-  for (int i = 0; i < most_iterations && end.q_dot.norm() > 0.0; ++i) {
-    const rod::StrainVector on = q + range_difference / body.shape().length() * end.q_dot.normalized();
+  for (int i = 0; i < most_iterations && !end.q_dot.isZero(0.0); ++i) {
+    const double fastest = end.q_dot.cwiseQuotient(body.units()).cwiseAbs().maxCoeff();
+    const rod::StrainVector on = q + range_difference / fastest * end.q_dot;
     if (!(used(on) > inside)) break;
     const rod::StrainVector g = slope(on), moved = mass.solve(g);
     const double out = g.dot(end.q_dot);
@@ -74,7 +75,7 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     end.q_dot -= out / g.dot(moved) * moved;
   }
   // What the strain gained on its way back, the rates lose.
-  const double moving = kinetic(end), excess = gained(end) - allowed;
+  const double moving = kinetic(end), excess = gained(end);
   if (excess > 0.0 && moving > 0.0) end.q_dot *= std::sqrt(std::max(0.0, 1.0 - excess / moving));
 }
 

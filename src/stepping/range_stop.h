@@ -8,7 +8,9 @@ namespace spring_workbench::stepping {
 /// [s] that ends at the time of `handle` and leads from the strain `begin` inside the range to `end` outside it. The
 /// force of the stop over the step moves the strain back into the range, against springs and dampers. An impulse
 /// without restitution (Moreau's time stepping) removes the rate that leads out of the range, or the rates at two
-/// stops. If moving the strain back adds energy, the rates lose as much.
+/// stops. The state has no more energy than at the begin of the step, beyond the work of weight, handle and contact:
+/// the rates lose what the strain has gained and, if a strain has too much energy even at rest, it is as far on the
+/// straight way from `begin` to `end` as range and energy allow.
 void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end);
 

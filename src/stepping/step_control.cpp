@@ -18,7 +18,7 @@ namespace spring_workbench::stepping {
 namespace {
 
 bool usable(const dynamics::StrainState& state) {
-  return state.q.norm() + state.q_dot.norm() < most_strain;  // false for NaN
+  return (state.q.array().abs() < most_strain).all() && (state.q_dot.array().abs() < most_strain).all();
 }
 
 /// From rates to the strain that they swing to, mode by mode, and the frequency of the stiffest mode.
@@ -155,8 +155,11 @@ void StepControl::weigh(const Span& span, double t, double h, const dynamics::St
 void StepControl::take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const {
   const dynamics::HeldBody& body = span.body;
   dynamics::StrainState next = tried.state;
+  double present = tried.energy;
   if (!tried.in_range) {
-    stop_at_range(body, body.forcing(span.handle, t + h), h, state, next);
+    const dynamics::HandleForcing end = body.forcing(span.handle, t + h);
+    stop_at_range(body, end, h, state, next);
+    present = difference(body, end, next, next).present;
     ++span.report.stops;
   }
   if (error_bound_) follow_error(span, t, h, tried, state);
@@ -170,7 +173,7 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
   span.report.position_error = std::max(span.report.position_error, tried.position_error);
   span.report.angle_error = std::max(span.report.angle_error, tried.angle_error);
   span.report.energy_error += tried.energy_error;
-  const double energy = std::max(tried.energy, std::exchange(span.memory.energy, tried.energy));
+  const double energy = std::max(present, std::exchange(span.memory.energy, present));
   const double spent = tried.energy_error / std::max(energy_drift_rate * energy, 1e-300);
   span.memory.energy_saved = std::clamp(span.memory.energy_saved + h - spent, -energy_reserve, energy_reserve);
   const double known = tried.estimate.omega_dt;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -163,6 +164,80 @@ TEST(StepControl, TakesOneStepFromSampleToSampleOfATrackedHand) {
   EXPECT_LT(steps, 1.02 * samples);
 }
 
+/// Solves its equation in the second half of the span of 1 s alone, by standing still.
+class SolvesLater final : public Integrator {
+ public:
+  explicit SolvesLater(double from) : from_(from) {}
+  int order() const override { return 1; }
+  bool stiffly_stable() const override { return true; }
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion&, double t, double, StrainState& state) override {
+    state.q_dot.setZero();
+    return {body.zero_state().q, 0.0, body.zero_state().q, t >= from_};
+  }
+
+ private:
+  double from_;
+};
+
+/// Where the integrator takes no step however short, those of the fallback become as long as they may, without a try of
+/// each: after two parts of a length one of twice that length. Where it takes them again, it takes long ones.
+TEST(StepControl, WhereNoShortStepWorksThoseOfTheFallbackGrow) {
+  std::mt19937 random(1);
+  const Case c = random_case("linear", 1.0, 1.0, random);
+  const motion::MotionSegment rest(RigidTransform::Identity());
+  const auto span = [&](double from) {
+    const StepControl control(std::make_unique<SolvesLater>(from));
+    StepControl::Memory memory;
+    StrainState state = c.held.zero_state();
+    return control.advance(c.held, rest, 0.0, 1.0, state, memory);
+  };
+  const ControlledStep never = span(2.0), later = span(0.5);
+  EXPECT_EQ(never.fallback, 7);  // two 64th parts, then one each of a 32nd, 16th, 8th, 4th, half
+  EXPECT_EQ(never.steps, 7);
+  EXPECT_EQ(never.substeps, 6);
+  EXPECT_EQ(later.fallback, 6);
+  EXPECT_EQ(later.steps, 7);
+}
+
+/// Steps that end beyond the rod's range, with a strain and with rates that come from nothing.
+class LeavesTheRange final : public Integrator {
+ public:
+  int order() const override { return 1; }
+  bool stiffly_stable() const override { return false; }  // so that no step is divided
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion&, double, double, StrainState& state) override {
+    const rod::StrainVector zero = body.zero_state().q;
+    state.q = 5.0 * body.units();
+    state.q[body.size() - 1] = -3.0 * body.units()[body.size() - 1];
+    state.q_dot = 100.0 * body.units();
+    return {zero, 0.0, zero, true};
+  }
+};
+
+TEST(StepControl, AStopAddsNoEnergyWhateverTheStepHasGained) {
+  std::mt19937 random(8);
+  const motion::MotionSegment rest(RigidTransform::Identity());
+  int stops = 0;
+  for (const std::string& shape : test_support::shape_names()) {
+    for (int trial = 0; trial < 20; ++trial) {
+      const HeldBody held = random_case(shape, 0.0, 1.0, random).held;
+      const auto energy = [&](const StrainState& s) {
+        const motion::MotionState o = held.object(held.forcing(rest, 0.0), s);
+        return held.elastic_energy(0.0, s) + held.kinetic_energy(o.velocity, o.X.linear()) +
+               held.body().mass * held.gravity() * o.X.translation().z();
+      };
+      const StepControl control(std::make_unique<LeavesTheRange>());
+      StepControl::Memory memory;
+      StrainState state{0.1 * held.units(), 0.1 * held.units()};
+      const double before = energy(state);
+      const ControlledStep step = control.advance(held, rest, 0.0, 0.02, state, memory);
+      stops += step.stops;
+      EXPECT_TRUE(held.shape().admissible(held.full_state(0.02, state).q)) << shape;
+      EXPECT_LT(energy(state), before + 1e-9 * std::abs(before)) << shape << " " << trial;
+    }
+  }
+  EXPECT_GT(stops, 0);
+}
+
 /// A strain that is finite, but so far off that the equations overflow and have no modes.
 TEST(StepControl, TakesNoStepFromAStrainFarOff) {
   std::mt19937 random(1);
@@ -182,6 +257,23 @@ TEST(StepControl, TakesNoStepFromAStrainFarOff) {
         }
       }
     }
+  }
+}
+
+/// The linear part there is not finite: no step is taken with one from before, and the next step has its own again.
+TEST(StepControl, AStrainFarOffIsNotSolvedWithTheLinearPartOfAnother) {
+  std::mt19937 random(1);
+  for (const std::string& shape : test_support::shape_names()) {
+    const Case c = random_case(shape, 1.0, 0.02, random);
+    const std::unique_ptr<Integrator> integrator = make_integrator(IntegratorKind::exponential);
+    const auto solves = [&](double size) {
+      StrainState state = c.held.zero_state();
+      state.q.setConstant(size);
+      return integrator->step(c.held, c.hand, 0.0, 0.02, state).converged;
+    };
+    EXPECT_TRUE(solves(0.0)) << shape;
+    EXPECT_FALSE(solves(1e200)) << shape;
+    EXPECT_TRUE(solves(0.0)) << shape;
   }
 }
 
