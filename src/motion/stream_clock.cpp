@@ -28,6 +28,7 @@ WallMoment WallClock::read(std::int64_t wall, std::int64_t steady) {
 
 StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
   if (!newest_) return begin(stamp, now);
+  if (now.steps != stepped_.steps && now.now > stepped_.now) stepped_ = now;
   const double own_age = age(stamp, now), as_this_host = seconds(now.now - stamp + now.steps);
   const double off = std::abs(own_age - smallest_age_);
   if (off > clock_slip && std::abs(as_this_host - smallest_age_) < off) {
@@ -45,6 +46,8 @@ StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
     step_to(offset_ + std::llround(1e9 * (smallest_age_ - least)));
     return StampResult::stepped;
   }
+  if (seconds(local(stamp) - stepped_.now) > clock_slip)
+    host_steps_ += seconds(stepped_.steps - std::exchange(followed_, stepped_.steps));
   smallest_age_ = std::min(own_age, smallest_age_ + clock_drift * seconds(now.now - arrival_));
   newest_ = std::max(*newest_, stamp);
   arrival_ = now.now;
@@ -63,6 +66,8 @@ StampResult StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
   const double first_age = age(stamp, now);
   if (first_age > max_age_) return StampResult::too_old;
   if (first_age < -max_age_) return StampResult::from_the_future;
+  stepped_ = now;
+  followed_ = now.steps;
   smallest_age_ = first_age;
   newest_ = stamp;
   arrival_ = now.now;
@@ -72,6 +77,7 @@ StampResult StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
 void StreamClock::step_to(std::int64_t offset) {
   *newest_ += offset - offset_;
   offset_ = offset;
+  followed_ = stepped_.steps;
   unmatched_.clear();
   ++steps_;
 }

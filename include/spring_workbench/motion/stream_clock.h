@@ -62,6 +62,10 @@ class StreamClock {
   bool has_begun() const { return newest_.has_value(); }
   /// Steps of the sender's clock so far.
   std::size_t steps() const { return steps_; }
+  /// Returns the steps of this host's clock that the sender's has not followed [s], since the last call. They are known
+  /// from the first fitting message that was stamped more than 0.1 s after the step: earlier ones may have been under
+  /// way when both clocks were set.
+  double take_host_steps() { return std::exchange(host_steps_, 0.0); }
 
  private:
   struct Stamped {
@@ -79,6 +83,9 @@ class StreamClock {
   double smallest_age_ = 0.0;           ///< smallest recent age, increasing at clock_drift [s]
   std::deque<Stamped> unmatched_;       ///< messages that did not fit since the newest one that did
   std::size_t steps_ = 0;
+  WallMoment stepped_;         ///< this host's clock when its newest step was noticed
+  std::int64_t followed_ = 0;  ///< steps of this host's clock that were reported, or made by the sender's, too [ns]
+  double host_steps_ = 0.0;    ///< see take_host_steps
 };
 
 /// Selects one of several senders of a stream: the first one, until it has been silent for `silence_timeout` [s].
@@ -141,6 +148,7 @@ class StampedStream {
     kept_.clear();
   }
   const StreamClock& clock() const { return clock_; }
+  double take_host_steps() { return clock_.take_host_steps(); }  ///< see StreamClock
 
  private:
   static constexpr std::size_t max_kept = 16;

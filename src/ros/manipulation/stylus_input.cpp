@@ -100,19 +100,15 @@ bool StylusInput::is_followed(const std::string& sender) {
 
 void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform) {
   const std::size_t steps = wall_poses_.clock().steps();
-  const motion::WallMoment now = ros_common::wall_moment();
-  const double host_set = 1e-9 * static_cast<double>(now.steps - std::exchange(host_steps_, now.steps));
   wall_poses_.offer(
-      transform, ros_common::nanoseconds_of(transform.header.stamp), now,
+      transform, ros_common::nanoseconds_of(transform.header.stamp), ros_common::wall_moment(),
       [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
       [&](const geometry_msgs::TransformStamped& one, motion::StampResult result, double age) {
         reject_stamp(one, motion::to_string(result), age);
       });
-  if (wall_poses_.clock().steps() == steps) {
-    if (host_set != 0.0)
-      ROS_WARN("this host's clock was set, or the host was suspended: %.3g s are treated as an offset", host_set);
-    return;
-  }
+  if (const double host_set = wall_poses_.take_host_steps(); host_set != 0.0)
+    ROS_WARN("this host's clock was set, or the host was suspended: %.3g s are treated as an offset", host_set);
+  if (wall_poses_.clock().steps() == steps) return;
   ++statistics_.clock_steps;
   ROS_WARN_STREAM("the clock of " << sender_.name() << " was set: its stamps are followed from the new time");
 }

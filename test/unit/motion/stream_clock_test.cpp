@@ -57,6 +57,26 @@ TEST(StreamClock, AStepOfBothClocksIsTakenOutToTheBit) {
     for (const std::int64_t error : line.times) EXPECT_EQ(error, 0);
     EXPECT_EQ(line.clock.steps(), 1u);
     EXPECT_EQ(line.now().steps, nanoseconds(by));
+    EXPECT_EQ(line.clock.take_host_steps(), 0.0);
+  }
+}
+
+/// Both clocks are set while messages are under way, which still have stamps of the old time: one step.
+TEST(StreamClock, MessagesUnderWayWhenBothClocksAreSetFitAndReportNothing) {
+  for (const double by : steps) {
+    Line line;
+    line.run(100);
+    line.here_set = nanoseconds(by);
+    for (int k = 1; k <= 3; ++k) {
+      line.steady += ms;
+      EXPECT_EQ(line.send(k * ms + ms / 2), StampResult::fits) << by;  // stamped half a millisecond before the step
+    }
+    line.sender_set = nanoseconds(by);
+    line.run(100);
+    ASSERT_EQ(line.times.size(), 203u) << by;
+    for (const std::int64_t error : line.times) EXPECT_EQ(error, 0);
+    EXPECT_EQ(line.clock.steps(), 1u);
+    EXPECT_EQ(line.clock.take_host_steps(), 0.0);
   }
 }
 
@@ -69,6 +89,8 @@ TEST(StreamClock, AStepOfThisHostAloneIsNotSeenInTheStream) {
     EXPECT_EQ(line.times.size(), 200u);
     EXPECT_EQ(line.clock.steps(), 0u) << by;
     for (const std::int64_t error : line.times) EXPECT_EQ(error, 0);
+    EXPECT_NEAR(line.clock.take_host_steps(), by, 1e-9 * std::abs(by));
+    EXPECT_EQ(line.clock.take_host_steps(), 0.0);
   }
 }
 
@@ -82,6 +104,7 @@ TEST(StreamClock, AStepOfTheSenderAloneIsFoundWithinAFewMessages) {
     EXPECT_EQ(line.clock.steps(), 1u) << by;
     EXPECT_GE(line.times.size(), 190u);
     for (const std::int64_t error : line.times) EXPECT_LT(std::abs(error), 4 * ms) << by;
+    EXPECT_EQ(line.clock.take_host_steps(), 0.0);
   }
 }
 
@@ -120,6 +143,8 @@ TEST(StreamClock, ASuspendedMachineIsAStepOfBoth) {
   line.run(50);
   for (const std::int64_t error : line.times) EXPECT_EQ(error, 0);
   EXPECT_EQ(line.times.size(), 100u);
+  EXPECT_EQ(line.clock.steps(), 1u);
+  EXPECT_EQ(line.clock.take_host_steps(), 0.0);
 }
 
 TEST(StreamClock, DriftIsFollowed) {

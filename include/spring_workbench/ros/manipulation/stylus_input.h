@@ -82,8 +82,7 @@ class StylusInput {
   mutable std::mutex mutex_;
   StaticFrames static_frames_;
   motion::SenderChoice sender_;
-  motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;  ///< as the next two, for wall time
-  std::int64_t host_steps_ = 0;  ///< steps of this host's wall clock at the newest message [ns]
+  motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;  ///< as the next, for wall time
   motion::StreamClock wall_buttons_;
   live::Inbox<live::StylusEvent> events_;
   InputStatistics statistics_;
