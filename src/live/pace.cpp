@@ -1,10 +1,15 @@
 #include "spring_workbench/live/pace.h"
 
+#include <chrono>
 #include <cmath>
 
 #include "constants.h"
 
 namespace spring_workbench::live {
+
+double Pace::steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 void Pace::committed(double simulated, double took, double lag) {
   if (!(simulated > 0.0)) return;

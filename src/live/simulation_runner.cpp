@@ -1,7 +1,6 @@
 #include "spring_workbench/live/simulation_runner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 
@@ -23,13 +22,14 @@ SimulationRunner::RecordedChange::~RecordedChange() {
 }
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
-                                   const hand_input::InputSettings& input, bool simulated_time)
+                                   const hand_input::InputSettings& input, bool simulated_time, Pace pace)
     : simulation_(scene, settings),
       feed_(simulation_, input),
       ahead_(scene, settings),
       scene_(std::make_shared<const scene::Scene>(simulation_.scene())),
       task_(scene),
       simulated_time_(simulated_time),
+      pace_(std::move(pace)),
       times_(simulation_.hands(), simulated_time) {
   for (std::size_t hand = 0; hand < simulation_.hands(); ++hand) inputs_.emplace_back(hand, settings.dropout_after);
 }
@@ -48,7 +48,7 @@ void HandInput::used(double t, const StylusPose& pose) {
 
 CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::LocalTime& now) {
   const Lock lock(mutex_);
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = pace_.now();
   for (const auto& [hand, came] : events)
     std::copy(came.begin(), came.end(), std::back_inserter(inputs_.at(hand).waiting));
   feed(now);
@@ -58,7 +58,7 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   report.more = feed_.next_stop(now).has_value();
   for (HandInput& input : inputs_) input.add_to(report);
   report.input_age += feed_.time_since_arrival(now);
-  report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.wall_time = pace_.now() - begin;
   const double lag = simulation_.newest_sample() - simulation_.time();
   if (!simulated_time_) pace_.committed(report.advance.simulated_time, report.wall_time, lag);
   if (!feed_.next_stop(now)) pace_.caught_up();

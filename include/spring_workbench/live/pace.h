@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 namespace spring_workbench::live {
 
@@ -8,7 +10,12 @@ namespace spring_workbench::live {
 /// time runs slower than the hands' time, and no new sample is accepted until all accepted ones have been simulated.
 class Pace {
  public:
-  /// Reports a commit that simulated `simulated` [s] and took `took` [s] by the steady clock. `lag`: time from the
+  /// `clock`: measures the time of the work [s]; by default the steady clock.
+  explicit Pace(std::function<double()> clock = steady_seconds) : clock_(std::move(clock)) {}
+  static double steady_seconds();
+  double now() const { return clock_(); }
+
+  /// Reports a commit that simulated `simulated` [s] and took `took` [s] by that clock. `lag`: time from the
   /// committed time to the newest sample not simulated yet [s].
   void committed(double simulated, double took, double lag);
   /// Reports that all accepted samples have been simulated.
@@ -26,6 +33,7 @@ class Pace {
   void changed() { measured_ = false; }
 
  private:
+  std::function<double()> clock_;
   bool measured_ = true;
   double cost_ = 0.0;  ///< time to simulate one second, smoothed [s]
   bool behind_ = false;

@@ -100,10 +100,10 @@ struct HandInput {
 class SimulationRunner {
  public:
   /// `simulated_time`: whether the clock is a simulated one. If so, a clock that is set back restarts the scene, as a
-  /// bag that is played again does; on the wall clock, time never goes back. Throws InputError if scene and settings do
-  /// not match.
+  /// bag that is played again does; on the wall clock, time never goes back. `pace`: measures how long commits take.
+  /// Throws InputError if scene and settings do not match.
   SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
-                   const hand_input::InputSettings& input, bool simulated_time);
+                   const hand_input::InputSettings& input, bool simulated_time, Pace pace = Pace());
 
   /// Feeds the events and then commits up to the next sample or button edge, if at local time `now` the input is
   /// complete up to there; on the wall clock no more than Pace::end_of_cycle. In simulated time, everything that the
@@ -123,8 +123,7 @@ class SimulationRunner {
   /// Loads another scene with the current settings. Throws InputError, and keeps the old scene, if they do not match.
   void load(const scene::Scene& scene);
   /// Loads a scene with the tools, settings and poses of a saved state; nothing is held. The objects keep these poses
-  /// when the first hand arrives and time restarts. Throws InputError, and changes nothing, if the state does not match
-  /// the scene.
+  /// when the first hand arrives and time restarts. Throws InputError, and changes nothing, if they do not match.
   void resume(const scene::Scene& scene, const simulation::SimulationState& state);
 
   std::size_t hands() const { return inputs_.size(); }  ///< number of hands
