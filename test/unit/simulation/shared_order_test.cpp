@@ -315,7 +315,7 @@ TEST(SharedLaw, EnergyIsAccountedFor) {
       return sum;
     };
     const double fine = added(1e-3);
-    EXPECT_LT(fine, 1e-4) << c.name;  // of some joules that come and go
+    EXPECT_LT(fine, 1e-4) << c.name;                       // of some joules that come and go
     EXPECT_LT(fine, 1e-10 + 0.3 * added(4e-3)) << c.name;  // 1e-10: rounding of 2,000 steps
   }
 }
