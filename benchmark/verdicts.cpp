@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kEvery50Hz = 0.02;
 constexpr double kLargestShare = 0.1;  // fraction of the deflection; a coarser target says nothing about the spring
+constexpr double kRepeatable = 1.3;    // ratio by which most run times differ between two runs of the report
+constexpr const char* kFirstOfAll = "> 1 (up to 1.3: even, not judged)";
 constexpr const char* kOurs = "exponential";
 const ErrorMeasure kOfAmplitude = &ErrorRow::error_over_hand_amplitude;
 const ErrorMeasure kOfDeflection = &ErrorRow::error_over_largest_deflection;
@@ -71,13 +73,19 @@ std::string without(const SceneRows& scene, const ErrorTarget& target,
   return names.empty() ? "" : "; not compared, since their own limit is not known well enough: " + names;
 }
 
-/// Compares ours with the best of some peers: the ratio of run times must be at least `least`, or above 1 if that is 1.
+/// Whether ours is first of all; not judged if it leads by no more than what run times differ by from run to run.
+Verdict::Result first_by(double ratio) {
+  if (ratio <= 1.0) return Verdict::Result::fail;
+  return ratio >= kRepeatable ? Verdict::Result::pass : Verdict::Result::not_measured;
+}
+
+/// Compares ours with the best of some peers: the ratio of run times must be at least `least`; 1: ours must be first.
 Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::string& whom,
                 const std::function<bool(const std::string&)>& wanted, double least) {
   const bool every = least == 1.0;
   Verdict verdict{named(scene) + ", at " + target.text() + integration_alone(scene, target) + ": run time of " + whom +
                       " over ours",
-                  every ? "> 1" : "≥ " + text(least) + "×", ""};
+                  every ? kFirstOfAll : "≥ " + text(least) + "×", ""};
   const double share = scene.share_of_deflection(target);
   const std::vector<Pair> pairs = scene.pairs(target, wanted);
   if (pairs.empty()) {
@@ -96,7 +104,7 @@ Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::st
     verdict.measured = text_of(pairs[0], target);
     const double ratio = *pairs[0].ratio();
     verdict.ratio = ratio;
-    verdict.result = (every ? ratio > 1.0 : ratio >= least) ? Verdict::Result::pass : Verdict::Result::fail;
+    verdict.result = every ? first_by(ratio) : ratio >= least ? Verdict::Result::pass : Verdict::Result::fail;
   }
   verdict.measured += without(scene, target, wanted);
   return verdict;
@@ -122,7 +130,7 @@ Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
       left > 0.0 ? "at every error that the samples allow, " + text(left) + " of the largest deflection and more"
                  : "at every error from a tenth to a thousandth of the largest deflection (what "
                    "the samples leave is not known)";
-  Verdict verdict{named(scene) + ", " + range + ": run time of " + whom + " over ours", "> 1", ""};
+  Verdict verdict{named(scene) + ", " + range + ": run time of " + whom + " over ours", kFirstOfAll, ""};
   int judged = 0;
   std::string lost;
   for (const double error : errors) {
@@ -136,7 +144,7 @@ Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
   verdict.measured = judged == 0    ? "no one reaches any"
                      : lost.empty() ? "first at all " + std::to_string(judged)
                                     : "of " + std::to_string(judged) + " lost at " + lost;
-  if (judged > 0) verdict.result = lost.empty() ? Verdict::Result::pass : Verdict::Result::fail;
+  if (judged > 0) verdict.result = first_by(*verdict.ratio);
   return verdict;
 }
 
@@ -355,19 +363,20 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// Cost of changes at run time.
+/// Cost of changes at run time, of which a user should not notice anything.
 void cost_of_a_change(const Measurements& m, std::vector<Verdict>& out) {
-  constexpr double kMost = 3.0;  // times as much as without a change
+  constexpr double kMost = 1000.0;  // [µs]; a twentieth of the 20 ms
   double usual = 0.0;
   for (const StepCost& cost : m.step_costs) {
     if (cost.shape == "linear" && cost.part == "advance by 20 ms") usual = cost.nanoseconds;
   }
   for (const StepCost& cost : m.step_costs) {
     if (cost.shape != "linear" || cost.part.rfind("advance after", 0) != 0 || usual == 0.0) continue;
-    const double ratio = cost.nanoseconds / usual;
-    out.push_back(judged(
-        "Simulation, default fork, " + cost.part + ", over one without", "at most " + text(kMost) + " times",
-        text(1e-3 * cost.nanoseconds) + " over " + text(1e-3 * usual) + " µs = " + text(ratio) + "×", ratio <= kMost));
+    const double micros = 1e-3 * cost.nanoseconds;
+    out.push_back(judged("Simulation, default fork, " + cost.part + ", and one without",
+                         "at most " + text(kMost) + " µs (20 ms)",
+                         text(micros) + " and " + text(1e-3 * usual) + " µs = " + text(cost.nanoseconds / usual) + "×",
+                         micros <= kMost));
   }
 }
 

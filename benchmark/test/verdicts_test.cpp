@@ -62,7 +62,7 @@ TEST(Verdicts, ARatioIsHeldFromItsTargetOnAndNotBelow) {
 
 TEST(Verdicts, EveryMethodThatIsNotOursIsAPeer) {
   for (const char* name : {"hand_rk4", "cvode_world", "solver_dop853", "ode_erp_cfm"}) {
-    for (const double time : {9.9, 10.1}) {
+    for (const double time : {9.9, 13.1}) {
       Measurements measured;
       add_line("exponential", 1.0, 10.0, measured.scenes);
       add_line("bullet_explicit", 1.0, 1e4, measured.scenes);
@@ -93,7 +93,7 @@ TEST(Verdicts, OnlyTheDefaultIntegratorIsOurs) {
 TEST(Verdicts, APeerWhoseLineBeginsBelowTheTargetIsComparedAtItsFirstError) {
   // Its cheapest run is 1e4 times better than required, so ours is compared at that error, which takes ten times as
   // long.
-  for (const double time : {90.0, 110.0}) {
+  for (const double time : {90.0, 135.0}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
     add_line("hand_rk4", 1.0, time / 10.0, measured.scenes, 1e-4);
@@ -106,7 +106,7 @@ TEST(Verdicts, APeerWhoseLineBeginsBelowTheTargetIsComparedAtItsFirstError) {
 
 TEST(Verdicts, WhereOursWasNotMeasuredThatFarDownItIsComparedAtTheLeastErrorThatItHas) {
   // Ours ends at 1e-8, for 31.6 µs/s; the other begins at 1e-10.
-  for (const double time : {30.0, 33.0}) {
+  for (const double time : {30.0, 42.0}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
     for (ErrorRow& row : measured.scenes) row.finite = row.error_over_hand_amplitude > 0.9e-8;
@@ -223,6 +223,18 @@ TEST(Verdicts, BySamplesEveryErrorThatTheyAllowIsJudged) {
   }
 }
 
+TEST(Verdicts, FirstOfAllIsWhoLeadsByMoreThanRunTimesDifferBy) {
+  for (const auto& [time, result] :
+       {std::pair{9.9, kFail}, std::pair{10.1, kNone}, std::pair{12.9, kNone}, std::pair{13.1, kPass}}) {
+    Measurements measured;
+    add_line("exponential", 1.0, 10.0, measured.scenes);
+    add_line("hand_rk4", 1.0, time, measured.scenes);
+    for (ErrorRow& row : measured.scenes) row.hand = "samples";
+    EXPECT_EQ(verdict_on(measured, "at 0.001 of the largest deflection").result, result) << time;
+    EXPECT_EQ(verdict_on(measured, "at every error").result, result) << time;
+  }
+}
+
 TEST(Verdicts, WhereTheSamplesLeaveMoreThanATenthOfTheDeflectionWhatTheyLeaveIsJudged) {
   for (const auto& [left, lost] : {std::pair{0.09, "of 2 lost at 0.1: "}, std::pair{0.11, "of 1 lost at 0.11: "},
                                    std::pair{144.0, "of 1 lost at 144: "}}) {
@@ -330,8 +342,8 @@ TEST(Verdicts, OnATrackedHandTheErrorIsJudgedWithWhatTheSamplesLeave) {
   }
 }
 
-TEST(Verdicts, TwentyMillisecondsAfterAChangeMayCostThreeTimesAsMuch) {
-  for (const auto& [nanoseconds, held] : {std::pair{2.9e4, true}, std::pair{3.1e4, false}}) {
+TEST(Verdicts, TwentyMillisecondsAfterAChangeMayCostATwentiethOfThem) {
+  for (const auto& [nanoseconds, held] : {std::pair{0.99e6, true}, std::pair{1.01e6, false}}) {
     Measurements measured;
     measured.step_costs = {{"linear", 6, "advance by 20 ms", 1e4}, {"linear", 6, "advance after a grasp", nanoseconds}};
     EXPECT_EQ(result_of(measured, "advance after a grasp"), held ? kPass : kFail);
