@@ -2,6 +2,7 @@
 
 #include "spring_workbench/dynamics/held_body.h"
 #include "spring_workbench/math/positive_definite.h"
+#include "spring_workbench/rod/straight_rod.h"
 #include "spring_workbench/rod/tip_motion.h"
 
 // The equation of motion itself, written once for one moment (`S` double) and for several side by side (math::Pack).

@@ -1,9 +1,9 @@
 #include "spring_workbench/dynamics/held_body.h"
 
 #include <cmath>
-#include <utility>
 
 #include "spring_workbench/rod/modal_damping.h"
+#include "spring_workbench/rod/straight_rod.h"
 
 namespace spring_workbench::dynamics {
 

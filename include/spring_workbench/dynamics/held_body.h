@@ -10,7 +10,6 @@
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/rod/shape_model.h"
-#include "spring_workbench/rod/straight_rod.h"
 
 namespace spring_workbench::dynamics {
 

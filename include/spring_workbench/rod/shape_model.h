@@ -99,6 +99,23 @@ class ShapeModel {
   double length_;  ///< [m]
 };
 
+/// A shape model's rod while it cannot bend. It then turns and stretches along its own axis only, which needs no
+/// quadrature however often it is wound up.
+class StraightRod {
+ public:
+  explicit StraightRod(const ShapeModel& shape);
+
+  /// ShapeModel::tip for the strain `q` without bend. The columns of the bend coordinates are set to zero. Defined in
+  /// straight_rod.h.
+  template <typename S>
+  void tip(const S* q, TipOf<S>& out) const;
+
+ private:
+  int torsion_, stretch_;
+  double length_;
+  double twist_, extension_;  ///< by unit of their coordinates
+};
+
 /// `length` [m] > 0; `slope_stiffness` as in ForkSettings. Throws InputError for an invalid length.
 std::shared_ptr<const ShapeModel> make_shape_model(ShapeKind kind, double length,
                                                    std::optional<double> slope_stiffness = std::nullopt);
