@@ -83,6 +83,7 @@ TEST_P(EveryIntegrator, KnowsTheWorkOfAStepOrDoesNotTellIt) {
         const double before = balance(0.05);
         integrator->step(c.held, c.hand, 0.05, h, state);
         const std::optional<StepWork> step = integrator->work(c.held);
+        EXPECT_EQ(step.has_value(), GetParam() == "exponential");
         if (!step) return 0.0;
         EXPECT_NEAR(step->energy_at_end, balance(0.05 + h), 1e-12 * (1.0 + std::abs(before)));
         return std::abs(step->energy_at_end - before - step->work);
