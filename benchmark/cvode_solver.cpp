@@ -53,21 +53,26 @@ class Cvode final : public OdeSolver {
     std::copy(y.begin(), y.end(), N_VGetArrayPointer(y_));
     std::copy(scale.begin(), scale.end(), N_VGetArrayPointer(absolute_));
     N_VScale(tolerance, absolute_, absolute_);
-    reinitialise(t);
+    reinitialise(t, 0.0);
     require(CVodeSVtolerances(cvode_, tolerance, absolute_), "CVodeSVtolerances");
   }
 
   const double* advance(double t, double stop) override {
     if (stop < kNever) require(CVodeSetStopTime(cvode_, stop), "CVodeSetStopTime");
     if (t > reached_) require(CVode(cvode_, t, y_, &reached_, CV_NORMAL), "CVode");
-    if (t == stop) reinitialise(t);
+    if (t == stop) {
+      double step = 0.0;  // spares it another search; a start at order one needs shorter steps than those just before
+      require(CVodeGetActualInitStep(cvode_, &step), "CVodeGetActualInitStep");
+      reinitialise(t, step);
+    }
     return N_VGetArrayPointer(y_);
   }
 
  private:
-  void reinitialise(double t) {
+  void reinitialise(double t, double step) {
     reached_ = t;
     require(CVodeReInit(cvode_, t, y_), "CVodeReInit");
+    require(CVodeSetInitStep(cvode_, step), "CVodeSetInitStep");
   }
 
   Rates rates_;

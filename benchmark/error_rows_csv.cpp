@@ -11,7 +11,8 @@ constexpr const char* kHeader =
     "scene,stiffness_factor,mass,shape,method,ours,hand,step,tolerance,own_reference,reference_uncertainty,hand_error,"
     "largest_deflection,error,position_error,error_between,angle_error,error_over_hand_amplitude,error_over_largest_"
     "deflection,"
-    "wall_us_per_simulated_second,steps_per_second,error_over_tolerance,model_error,finite,steps_fallback,given_up";
+    "wall_us_per_simulated_second,steps_per_second,error_over_tolerance,model_error,finite,steps_fallback,given_up,"
+    "other_round_wall_us";
 
 }  // namespace
 
@@ -37,7 +38,9 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
       if (row.given_up) out << row.wall_us_per_simulated_second;
       out << ",,,";
     }
-    out << ',' << row.finite << ',' << row.steps_fallback << ',' << row.given_up << '\n';
+    out << ',' << row.finite << ',' << row.steps_fallback << ',' << row.given_up << ',';
+    if (row.other_wall_us > 0.0) out << row.other_wall_us;
+    out << '\n';
   }
 }
 

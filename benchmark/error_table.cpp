@@ -30,8 +30,8 @@ std::vector<Scenario> scenes_of(bool quick) {
     for (const auto& [factor, mass] : {std::pair{1.0, 1e-3}, {1e6, 1e-3}, {1e4, 1e3}, {1e5, 1e3}}) {
       sampled.push_back(six_dof_scene(factor, 1.0, mass));
     }
-    sampled.push_back(stretch_scene(1e4));
-    sampled.push_back(torsion_scene(1e4));
+    for (const double k : {1e4, 1e6}) sampled.push_back(stretch_scene(k));
+    for (const double k : {1e4, 1e6}) sampled.push_back(torsion_scene(k));
   }
   if (quick) {
     for (std::vector<Scenario>* scenes : {&known, &sampled}) {
@@ -251,6 +251,12 @@ bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
   return last.tolerance == 0.0 && has_levelled_off(rows) && last.error_over_hand_amplitude < 1e-2;
 }
 
+void add_round(double wall_us, ErrorRow& row) {
+  double& least = row.wall_us_per_simulated_second;
+  row.other_wall_us = std::max(least, wall_us);
+  least = std::min(least, wall_us);
+}
+
 void take_turns(const std::vector<std::function<bool()>>& lines) {
   std::vector<bool> over(lines.size());
   while (std::find(over.begin(), over.end(), false) != over.end()) {
@@ -302,8 +308,7 @@ std::vector<ErrorRow> timed_again(const std::vector<const Method*>& methods, con
     const Method& method = **std::find_if(methods.begin(), methods.end(), same);
     const double setting = method.knob() == Method::Knob::step ? row.step : row.tolerance;
     const RunResult run = run_isolated(method, scene, setting, {1, plan.repetition.seconds}, plan.run_limit);
-    double& time = row.wall_us_per_simulated_second;
-    time = std::min(time, 1e6 * run.wall_seconds / scene.duration);
+    if (run.finite) add_round(1e6 * run.wall_seconds / scene.duration, row);
   }
   return rows;
 }

@@ -59,8 +59,9 @@ struct ErrorRow {
   double error_over_tolerance = 0.0;          ///< for rods run to a tolerance: error_as_length() divided by it
   double model_error = 0.0;                   ///< with `own_reference`: error of that limit itself [as error]
   bool finite = false;
-  long steps_fallback = 0;  ///< see RunResult
-  bool given_up = false;    ///< whether the run exceeded the plan's limit
+  long steps_fallback = 0;     ///< see RunResult
+  bool given_up = false;       ///< whether the run exceeded the plan's limit
+  double other_wall_us = 0.0;  ///< wall_us_per_simulated_second of the slower round; 0: measured once
 };
 
 template <typename Fields>
@@ -68,7 +69,8 @@ void each_field(ErrorRow& r, Fields& fields) {
   fields(r.scene, r.stiffness_factor, r.mass, r.shape, r.method, r.ours, r.hand, r.step, r.tolerance, r.own_reference,
          r.reference_uncertainty, r.hand_error, r.largest_deflection, r.error, r.position_error, r.error_between,
          r.angle_error, r.error_over_hand_amplitude, r.error_over_largest_deflection, r.wall_us_per_simulated_second,
-         r.steps_per_second, r.error_over_tolerance, r.model_error, r.finite, r.steps_fallback, r.given_up);
+         r.steps_per_second, r.error_over_tolerance, r.model_error, r.finite, r.steps_fallback, r.given_up,
+         r.other_wall_us);
 }
 
 /// Title of a row for tables and verdicts: scene, stiffness, mass and how the hand is known.
@@ -90,6 +92,9 @@ bool has_levelled_off(const std::vector<ErrorRow>& rows);
 /// [s per simulated second], it has reached the uncertainty of its reference, or it has levelled off with the step. A
 /// tolerance has no effect as long as one step per sample keeps it, so all of them are run.
 bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run);
+
+/// Adds the time of the second round [µs per simulated second] to that of the first.
+void add_round(double wall_us, ErrorRow& row);
 
 /// Measures curves in turns: calls each for its next row until it returns false.
 void take_turns(const std::vector<std::function<bool()>>& lines);

@@ -171,8 +171,7 @@ class Line {
   void time_again(ErrorRow& row) const {
     if (!row.finite || !is_compared_in({row.step, row.tolerance})) return;
     const RodRun again = timed({row.step, row.tolerance}, 1);
-    double& time = row.wall_us_per_simulated_second;
-    if (again.finite) time = std::min(time, 1e6 * again.wall_seconds / case_.duration);
+    if (again.finite) add_round(1e6 * again.wall_seconds / case_.duration, row);
   }
 
  private:

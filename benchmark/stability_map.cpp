@@ -250,10 +250,12 @@ std::vector<DrawnCell> covering(const std::vector<DrawnCell>& drawn) {
 
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string& integrator, double stiffness_factor) {
   const bool is_default = integrator == validation::name_of(dynamics::DynamicsSettings().integrator);
+  const bool is_explicit = integrator == "rk4" || integrator == "semi_implicit_euler";
   std::vector<StabilityCell> cells;
-  for (const DrawnCell& one :
-       is_default ? drawn_cells(plan, plan.cells) : covering(drawn_cells(plan, plan.cells_of_others))) {
-    if (one.cell.stiffness_factor == stiffness_factor) cells.push_back(one.cell);
+  for (DrawnCell one : is_default ? drawn_cells(plan, plan.cells) : covering(drawn_cells(plan, plan.cells_of_others))) {
+    if (one.cell.stiffness_factor != stiffness_factor) continue;
+    if (is_explicit) one.cell.seconds = plan.seconds;
+    cells.push_back(one.cell);
   }
   std::stable_sort(cells.begin(), cells.end(), [](const StabilityCell& a, const StabilityCell& b) {
     return std::tuple(a.mass, a.step, a.damping_ratio) < std::tuple(b.mass, b.step, b.damping_ratio);

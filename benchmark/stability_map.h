@@ -127,7 +127,8 @@ StabilityCell cell_of(const StabilityPlan& plan, OneOf&& one_of) {
 /// Counts the rows of the cells that have been run; cells of one row must be consecutive.
 StabilityMap map_of(const std::vector<StabilityRun>& cells);
 
-/// The cells of an integrator with this stiffness, ordered by mass, step and damping ratio.
+/// The cells of an integrator with this stiffness, ordered by mass, step and damping ratio. The explicit integrators,
+/// which are there for comparison, have no longer ones.
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string& integrator, double stiffness_factor);
 
 /// Number of units of progress, and the map; runs cells on all processors at once.

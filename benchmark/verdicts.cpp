@@ -110,7 +110,7 @@ Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::st
   return verdict;
 }
 
-/// Errors from a tenth of the largest deflection down to `least`, two per decade; only `least` if that is more.
+/// Errors from a tenth of the largest deflection down to `least`, two per decade.
 std::vector<double> errors_down_to(double least) {
   std::vector<double> errors;
   for (double decade = kLargestShare; decade > 1e-12; decade *= 0.1)
@@ -122,7 +122,7 @@ std::vector<double> errors_down_to(double least) {
 }
 
 /// Compares ours with all at the errors that the samples allow: from a tenth of the largest deflection down to what
-/// they leave open, or at that alone if it is more. If it is not known, down to a thousandth.
+/// they leave open; not if that is more. If it is not known, down to a thousandth.
 Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
   const double left = scene.left_by_samples();
   const std::vector<double> errors = errors_down_to(left > 0.0 ? left : 1e-3);
@@ -131,6 +131,10 @@ Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
                  : "at every error from a tenth to a thousandth of the largest deflection (what "
                    "the samples leave is not known)";
   Verdict verdict{named(scene) + ", " + range + ": run time of " + whom + " over ours", kFirstOfAll, ""};
+  if (left > kLargestShare) {
+    verdict.measured = "not judged: the samples leave " + text(100.0 * left) + " % of the largest deflection";
+    return verdict;
+  }
   int judged = 0;
   std::string lost;
   for (const double error : errors) {
@@ -199,6 +203,27 @@ void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {
     out.push_back(against(scene, target, "the best engine", is_engine, stiff ? 50.0 : 20.0));
     out.push_back(against(scene, target, "CVODE in any form", is_cvode, stiff ? 20.0 : 2.0));
   }
+}
+
+/// By how much the two rounds of a run differ in the run times that are compared.
+void repeatability(const Measurements& m, std::vector<Verdict>& out) {
+  std::vector<double> ratios;
+  for (const std::vector<ErrorRow>* rows : {&m.scenes, &m.rods}) {
+    for (const ErrorRow& row : *rows) {
+      if (row.other_wall_us > 0.0) ratios.push_back(row.other_wall_us / row.wall_us_per_simulated_second);
+    }
+  }
+  if (ratios.empty()) return;
+  std::sort(ratios.begin(), ratios.end());
+  const auto beyond = std::distance(std::upper_bound(ratios.begin(), ratios.end(), kRepeatable), ratios.end());
+  Verdict verdict{"Run times of a method and setting, the slower round over the faster", "(not a target)",
+                  "median " + text(ratios[ratios.size() / 2]) + ", 95 % below " +
+                      text(ratios[ratios.size() * 95 / 100]) + ", most " + text(ratios.back()) + "; more than " +
+                      text(kRepeatable) + " in " +
+                      text(100.0 * static_cast<double>(beyond) / static_cast<double>(ratios.size())) + " % of " +
+                      std::to_string(ratios.size())};
+  verdict.ratio = ratios[ratios.size() * 95 / 100];
+  out.push_back(verdict);
 }
 
 /// Time of a step of MuJoCo's RK4 in scene C [µs], for comparing machines. Infinite if not measured.
@@ -542,6 +567,7 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
       if (scene.rows[0].hand == hand) against_peers(scene, out);
     }
   }
+  repeatability(measured, out);
   sketch(measured, out);
   rods_against_peers(measured, out);
   rods(measured, out);

@@ -66,7 +66,7 @@ struct Work {
     std::vector<ErrorRow> rows = error_table(methods, scenes, units);
     const std::vector<ErrorRow> more = rod_table(rods, units);
     rows.insert(rows.end(), more.begin(), more.end());
-    for (ErrorRow& row : rows) row.wall_us_per_simulated_second = 0.0;
+    for (ErrorRow& row : rows) row.wall_us_per_simulated_second = row.other_wall_us = 0.0;
     const StabilityMap stability = stability_map(map, units);
     std::string text;
     for (const ErrorRow& row : rows) text += row_text(row) + '\n';
