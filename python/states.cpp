@@ -75,6 +75,10 @@ void bind_fork(py::module_& module) {
           "Force [N] and moment [N m] on the hand, in the handle's axes; shape (6,).")
       .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the fork [J].")
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
+      .def_readonly("error_bound", &ToolState::error_bound,
+                    "Bound of the error of integration since the grasp, in position [m]; see `error_bounded`.")
+      .def_readonly("error_bounded", &ToolState::error_bounded,
+                    "Whether the setting `error_bound` is on and the bound holds now; not, e.g., in contact.")
       .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
@@ -111,11 +115,15 @@ void bind_report(py::module_& module) {
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
       .def_readonly("angle_error", &AdvanceReport::angle_error,
                     "Largest estimate of a step's local error in the angle [rad].")
-      .def_readonly("error_bound", &AdvanceReport::error_bound, "Largest bound of the run's error in position [m].")
-      .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound,
-                    "Largest bound of the run's error in angle [rad].")
-      .def_readonly("steps_unbounded", &AdvanceReport::steps_unbounded,
-                    "Number of steps without a bound, e.g. in contact.")
+      .def_readonly(
+          "error_bound", &AdvanceReport::error_bound,
+          "Largest bound of the error of integration since the grasp, in position [m], over the steps that have "
+          "one; 0 if none has, as without the setting `error_bound`.")
+      .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound, "The same in angle [rad].")
+      .def_readonly(
+          "steps_unbounded", &AdvanceReport::steps_unbounded,
+          "Number of integrations without a bound: all, unless the setting `error_bound` is on; then e.g. those "
+          "in contact, where a step may take several.")
       .def_readonly("energy_added", &AdvanceReport::energy_added,
                     "Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,

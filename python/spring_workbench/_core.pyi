@@ -147,6 +147,12 @@ class Fork:
     def kinetic_energy(self) -> float:
         """Kinetic energy of the held object [J]."""
     @property
+    def error_bound(self) -> float:
+        """Bound of the error of integration since the grasp, in position [m]; see `error_bounded`."""
+    @property
+    def error_bounded(self) -> bool:
+        """Whether the setting `error_bound` is on and the bound holds now; not, e.g., in contact."""
+    @property
     def weight(self) -> float:
         """Upward force on the object divided by g [vkg]."""
     @property
@@ -206,13 +212,15 @@ class Report:
         """Largest estimate of a step's local error in the angle [rad]."""
     @property
     def error_bound(self) -> float:
-        """Largest bound of the run's error in position [m]."""
+        """Largest bound of the error of integration since the grasp, in position [m], over the steps that have one;
+        0 if none has, as without the setting `error_bound`."""
     @property
     def angle_error_bound(self) -> float:
-        """Largest bound of the run's error in angle [rad]."""
+        """The same in angle [rad]."""
     @property
     def steps_unbounded(self) -> int:
-        """Number of steps without a bound, e.g. in contact."""
+        """Number of integrations without a bound: all, unless the setting `error_bound` is on; then e.g. those in
+        contact, where a step may take several."""
     @property
     def energy_added(self) -> float:
         """Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J]."""

@@ -58,9 +58,11 @@ struct AdvanceReport {
   double position_error = 0.0;     ///< largest estimate of a step's local error [m]
   double angle_error = 0.0;        ///< largest estimate of a step's local error in angle [rad]
   double local_error_bound = 0.0;  ///< largest bound of a step's local error in position [m]; infinity: no bound
-  double error_bound = 0.0;        ///< largest bound of the run's error in position [m] (doc/model.md, "Error bound")
-  double angle_error_bound = 0.0;  ///< largest bound of the run's error in angle [rad]
-  int steps_unbounded = 0;         ///< steps without an error bound
+  double error_bound = 0.0;        ///< largest bound of the error of integration since the grasp, in position [m], over
+                                   ///< the steps that have one; 0 if none has (doc/model.md, "Error bound")
+  double angle_error_bound = 0.0;  ///< the same in angle [rad]
+  int steps_unbounded = 0;         ///< integrations without a bound: all, unless the setting `error_bound` is on; then
+                                   ///< e.g. those in contact, where a step may take several
   double energy_added = 0.0;       ///< energy of the held object and the fork beyond the work of hand, gravity, damping
                                    ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
@@ -71,12 +73,12 @@ struct AdvanceReport {
   int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
-  int steps_unsolved = 0;     ///< steps near other movable objects that were taken although a contact missed its law by
-                              ///< more than 1 µm, was deeper than 0.1 mm, or a free body may have gone too deep
-  double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
-  int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
-  int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time
-  std::bitset<8> ran;         ///< the subsystems that ran, in the order of active()
+  int steps_unsolved = 0;   ///< steps near other movable objects, taken although a contact missed its law by more than
+                            ///< 1 µm, was deeper than 0.1 mm, or a free body may have penetrated too far
+  double time_lost = 0.0;   ///< time during which a body did not follow its equation [s]
+  int steps_rejected = 0;   ///< steps rejected because the result was not finite or bounded
+  int wrench_timeouts = 0;  ///< times an external wrench went to zero because no next one came in time
+  std::bitset<8> ran;       ///< the subsystems that ran, in the order of active()
 
   std::vector<std::string> active() const;   ///< names of the subsystems that ran
   std::vector<std::string> skipped() const;  ///< names of the subsystems that were not needed

@@ -42,9 +42,10 @@ struct ToolState {
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< kinetic energy of the held object, in world [J]
   double error_bound = 0.0;                                ///< bound of the run's error in position [m]
-  bool error_bounded = false;                              ///< whether the bound is valid (doc/model.md, "Error bound")
-  double force_scale = 1.0;                                ///< ratio of virtual to real force
-  double weight = 0.0;                                     ///< reading as a scale: upward force on the object / g [vkg]
+  bool error_bounded = false;     ///< whether the setting `error_bound` is on and the bound holds now (doc/model.md,
+                                  ///< "Error bound"); not, e.g., in contact
+  double force_scale = 1.0;       ///< ratio of virtual to real force
+  double weight = 0.0;            ///< reading as a scale: upward force on the object / g [vkg]
   double torque = 0.0;            ///< reading as a torque wrench: moment about the axis at the tip [N·m]
   Reading weight_average;         ///< [vkg]; filled in by ReadingAverage
   Reading torque_average;         ///< [N·m]; likewise
