@@ -58,11 +58,9 @@ struct AdvanceReport {
   double position_error = 0.0;     ///< largest estimate of a step's local error [m]
   double angle_error = 0.0;        ///< largest estimate of a step's local error in angle [rad]
   double local_error_bound = 0.0;  ///< largest bound of a step's local error in position [m]; infinity: no bound
-  double error_bound = 0.0;        ///< largest bound of the error of integration since the grasp, in position [m], over
-                                   ///< the steps that have one; 0 if none has (doc/model.md, "Error bound")
-  double angle_error_bound = 0.0;  ///< the same in angle [rad]
-  int steps_unbounded = 0;         ///< integrations without a bound: all, unless the setting `error_bound` is on; then
-                                   ///< e.g. those in contact, where a step may take several
+  double error_bound = 0.0;        ///< largest bound of the error since the grasp, in position [m]; 0: no step has one
+  double angle_error_bound = 0.0;  ///< the same in angle [rad] (both: doc/model.md, "Error bound")
+  int steps_unbounded = 0;         ///< integrations (in contact several a step) without one: all without `error_bound`
   double energy_added = 0.0;       ///< energy of the held object and the fork beyond the work of hand, gravity, damping
                                    ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
