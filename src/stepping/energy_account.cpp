@@ -75,6 +75,16 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
   return step->energy_at_end - before.energy[0] - step->work;
 }
 
+dynamics::HandleForcing over_step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t,
+                                  double h) {
+  dynamics::HandleForcing over = body.forcing(handle, t + h);
+  const dynamics::HandleForcing middle = body.forcing(handle, t + 0.5 * h);
+  over.angular_velocity = middle.angular_velocity;
+  over.angular_acceleration = middle.angular_acceleration;
+  over.acceleration_less_gravity = middle.acceleration_less_gravity;
+  return over;
+}
+
 double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
                      const dynamics::StrainState& begin, const dynamics::StrainState& end) {
   const double t = handle.t;

@@ -22,9 +22,14 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
 double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     const dynamics::StrainState& begin, const dynamics::StrainState& end);
 
+/// The motion of the handle over a step of `h` from `t` [s] in a balance that ends with it: its pose and velocity at
+/// the end, its accelerations and angular velocity in the middle, the mean of those that change evenly.
+dynamics::HandleForcing over_step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t,
+                                  double h);
+
 /// Energy of springs and motion in the frame of the handle, and of couplings with frames at rest in it, after a step to
-/// the moment of `handle`, less the energy before and the work of weight, handle's acceleration and contact as they are
-/// at the end [J]: not above 0 for implicit Euler on a fork that is linear.
+/// the moment of `handle`, less the energy before and the work of weight, handle's acceleration and contact as `handle`
+/// has them [J]: with those at the end, not above 0 for implicit Euler on a fork that is linear.
 double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
                      const dynamics::StrainState& begin, const dynamics::StrainState& end);
 

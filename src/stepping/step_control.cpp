@@ -157,9 +157,8 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
   dynamics::StrainState next = tried.state;
   double present = tried.energy;
   if (!tried.in_range) {
-    const dynamics::HandleForcing end = body.forcing(span.handle, t + h);
-    stop_at_range(body, end, h, state, next);
-    present = difference(body, end, next, next).present;
+    stop_at_range(body, over_step(body, span.handle, t, h), h, state, next);
+    present = difference(body, body.forcing(span.handle, t + h), next, next).present;
     ++span.report.stops;
   }
   if (error_bound_) follow_error(span, t, h, tried, state);
