@@ -21,7 +21,7 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
   const rod::StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
   StrainState next = state;
   rod::StrainVector a = body.acceleration(end, next.q, next.q_dot);
-  const LinearisedMotion motion(body, end, next, a);
+  const LinearisedMotion motion(body, end, body.forcing(handle, t + h + math::Pack{}), next, a);
   const ImplicitMatrix matrix(motion, h);
   double last_change = 0.0, first_change = 0.0;
   bool converged = false;
@@ -36,7 +36,7 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
     const double size = motion.size(change);
     if (i == 0) first_change = size;
     converged = size <= newton_tolerance * (first_change + motion.size(next.q_dot) + motion.size(next.q) / h);
-    if (i > 0 && !(size < last_change)) {
+    if (i > 1 && !(size < last_change)) {  // the first change closes a gap of the strain, too: no rate follows from it
       converged = converged || size < newton_rounding * first_change;
       break;
     }
@@ -109,7 +109,7 @@ struct StepStart {
   StepStart(const HeldBody& body, const motion::FrameMotion& handle, double t, const StrainState& state)
       : forcing(body.forcing(handle, t)),
         q_ddot(body.acceleration(forcing, state.q, state.q_dot)),
-        motion(body, forcing, state, q_ddot) {}
+        motion(body, forcing, body.forcing(handle, t + math::Pack{}), state, q_ddot) {}
 };
 
 StrainState rodas_step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,

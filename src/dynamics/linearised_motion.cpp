@@ -1,5 +1,7 @@
 #include "spring_workbench/dynamics/linearised_motion.h"
 
+#include "spring_workbench/math/by_size.h"
+
 namespace spring_workbench::dynamics {
 namespace {
 
@@ -17,27 +19,34 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
   D = springs.D;
 }
 
-LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
-                                   const rod::StrainVector& q_ddot)
+LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const HandleForcings& moment,
+                                   const StrainState& state, const rod::StrainVector& q_ddot)
     : LinearisedMotion(body, handle, state.q) {
   const rod::StrainMatrix stiffness = K, damping = D;
   const rod::StrainVector units = body.units();
-  StrainState moved = state;
-  for (int j = 0; j < body.size(); ++j) {
-    moved.q[j] += strain_difference * units[j];
-    const double step_q = moved.q[j] - state.q[j];
-    rod::StrainVector force = M * (body.acceleration(handle, moved.q, state.q_dot) - q_ddot);
-    force += stiffness.col(j) * step_q;
-    K.col(j) -= force / step_q;
-    moved.q[j] = state.q[j];
-
-    moved.q_dot[j] += rate_difference * units[j];
-    const double step_v = moved.q_dot[j] - state.q_dot[j];
-    force = M * (body.acceleration(handle, state.q, moved.q_dot) - q_ddot);
-    force += damping.col(j) * step_v;
-    D.col(j) -= force / step_v;
-    moved.q_dot[j] = state.q_dot[j];
-  }
+  math::by_size(body.size(), [&](auto size) {
+    constexpr int n = decltype(size)::value;
+    for (int first = 0; first < 2 * n; first += math::pack_size) {  // strains, then rates: one in each lane
+      math::Pack q[n], q_dot[n], moved[n];
+      for (int i = 0; i < n; ++i) {
+        q[i] = state.q[i] + math::Pack{};
+        q_dot[i] = state.q_dot[i] + math::Pack{};
+      }
+      for (int k = 0; k < math::pack_size && first + k < 2 * n; ++k) {
+        const int j = first + k;
+        j < n ? q[j][k] += strain_difference * units[j] : q_dot[j - n][k] += rate_difference * units[j - n];
+      }
+      body.acceleration<n>(moment, q, q_dot, moved);
+      for (int k = 0; k < math::pack_size && first + k < 2 * n; ++k) {
+        const int j = (first + k) % n;
+        const bool strain = first + k < n;
+        const double step = strain ? q[j][k] - state.q[j] : q_dot[j][k] - state.q_dot[j];
+        rod::StrainVector change(n);
+        for (int i = 0; i < n; ++i) change[i] = moved[i][k] - q_ddot[i];
+        (strain ? K : D).col(j) -= (M * change + (strain ? stiffness : damping).col(j) * step) / step;
+      }
+    }
+  });
 }
 
 ImplicitMatrix::ImplicitMatrix(const LinearisedMotion& motion, double d) {

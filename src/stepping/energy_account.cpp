@@ -99,6 +99,9 @@ double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForci
   const auto position = [&](const dynamics::StrainState& s) -> Vector3d {
     return body.object(origin, s).X.translation();
   };
+  // The state that was last asked for first: its tip is known.
+  const double energy_at_end = energy(end);
+  const Vector3d p_at_end = position(end);
   // Weight, the handle's acceleration and the contact's force are constant on the way; other loads are as at the begin.
   const auto R_HW = handle.X_WH.linear().transpose();
   const Vector3d force = R_HW * body.external_wrench().force - body.body().mass * handle.acceleration_less_gravity;
@@ -108,7 +111,7 @@ double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForci
   const rod::StrainVector loads = body.mass_matrix(t, begin.q) * body.acceleration(handle, begin.q, at_rest.q_dot) +
                                   body.elastic_force(t, begin.q) -
                                   body.object_jacobian(t, begin.q).transpose() * accounted;
-  return energy(end) - energy(begin) - loads.dot(end.q - begin.q) - force.dot(position(end) - position(begin));
+  return energy_at_end - energy(begin) - loads.dot(end.q - begin.q) - force.dot(p_at_end - position(begin));
 }
 
 }  // namespace spring_workbench::stepping

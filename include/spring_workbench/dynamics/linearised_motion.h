@@ -11,8 +11,9 @@ namespace spring_workbench::dynamics {
 /// stiffness costs digits; geometric stiffness, loads and gyroscopic terms by finite differences.
 struct LinearisedMotion {
   rod::StrainMatrix M, K, D;
-  LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
-                   const rod::StrainVector& q_ddot);
+  /// `moment`: the same moment as `handle`, in every lane.
+  LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const HandleForcings& moment,
+                   const StrainState& state, const rod::StrainVector& q_ddot);
   /// With springs and dampers alone.
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
   /// Size of a change of the rates, all coordinates together: the root of twice its kinetic energy.
