@@ -58,34 +58,69 @@ StaticDeformation::Block StaticDeformation::block(bool torsion) const {
 }
 
 StrainVector StaticDeformation::force(const StrainVector& q, const Vector6d& load_H) const {
+  return force(tip_at(q), load_H);
+}
+
+TipKinematics StaticDeformation::tip_at(const StrainVector& q) const {
   TipKinematics tip;
   shape_.tip(q, StrainVector::Zero(q.size()), tip);
+  return tip;
+}
+
+StrainVector StaticDeformation::force(const TipKinematics& tip, const Vector6d& load_H) const {
   const Vector3d force = load_H.head<3>(), moment = load_H.tail<3>() + (tip.R_HE * p_EO_).cross(force);
   return tip.linear.transpose() * force + tip.angular.transpose() * moment;
 }
 
-StrainVector StaticDeformation::imbalance(const StrainVector& q) const { return K_.cwiseProduct(q) - force(q); }
+StaticDeformation::Forces StaticDeformation::forces(const math::Pack* q) const {
+  const math::Pack none{}, at_rest[max_strain_coordinates]{};
+  const auto in_lanes = [&](const Vector3d& v) {
+    return math::Three<math::Pack>{v.x() + none, v.y() + none, v.z() + none};
+  };
+  TipOf<math::Pack> tip;  // NOLINT(cppcoreguidelines-pro-type-member-init): tip() sets all of it
+  shape_.tip(q, at_rest, tip);
+  const math::Three<math::Pack> force = in_lanes(load_H_.force),
+                                moment = in_lanes(load_H_.moment) + cross(tip.R_HE * in_lanes(p_EO_), force);
+  Forces f{};
+  for (int c = 0; c < shape_.size(); ++c) {
+    f[static_cast<std::size_t>(c)] = dot(tip.linear[c], force) + dot(tip.angular[c], moment);
+  }
+  return f;
+}
 
-StaticDeformation::Slope StaticDeformation::slope(const StrainVector& q, const Block& b) const {
-  TipKinematics tip;
-  shape_.tip(q, StrainVector::Zero(q.size()), tip);
-  const StrainVector here = force(q);
+StrainVector StaticDeformation::imbalance(const StrainVector& q, const TipKinematics& tip) const {
+  return K_.cwiseProduct(q) - force(tip, to_vector(load_H_));
+}
+
+StaticDeformation::Slope StaticDeformation::slope(const StrainVector& q, const TipKinematics& tip,
+                                                  const Block& b) const {
+  const StrainVector here = force(tip, to_vector(load_H_));
   const double length = shape_.length();
   Slope s;
   s.A.resize(b.count, b.count);
   s.scale.resize(b.count);
   s.moves.resize(b.count);
   for (int j = 0; j < b.count; ++j) s.scale[j] = 1.0 / std::sqrt(K_[b.index[j]]);
-  for (int j = 0; j < b.count; ++j) {
-    const int c = b.index[j];
-    const double moved = tip.linear.col(c).norm() / length + tip.angular.col(c).norm();
-    StrainVector ahead = q;
-    ahead[c] += difference / std::max(moved, 1e-3 * length) + digits * std::abs(q[c]);
-    const double step = ahead[c] - q[c];
+  for (int first = 0; first < b.count; first += math::pack_size) {  // one coordinate in each lane
+    const int count = std::min(math::pack_size, b.count - first);
+    math::Pack ahead[max_strain_coordinates];
+    for (int c = 0; c < shape_.size(); ++c) ahead[c] = q[c] + math::Pack{};
+    for (int k = 0; k < count; ++k) {
+      const int j = first + k, c = b.index[j];
+      const double moved = tip.linear.col(c).norm() / length + tip.angular.col(c).norm();
+      ahead[c][k] += difference / std::max(moved, 1e-3 * length) + digits * std::abs(q[c]);
+      s.moves[j] = c == shape_.stretch().begin ? 0.0 : moved;
+    }
+    const Forces there = forces(ahead);
     // Only the load's part: that of the springs is exactly 1, so it causes no cancellation, stiff or soft.
-    const StrainVector rise = here - force(ahead);
-    for (int i = 0; i < b.count; ++i) s.A(i, j) = s.scale[i] * s.scale[j] * rise[b.index[i]] / step + (i == j);
-    s.moves[j] = c == shape_.stretch().begin ? 0.0 : moved;
+    for (int k = 0; k < count; ++k) {
+      const int j = first + k, c = b.index[j];
+      const double step = ahead[c][k] - q[c];
+      for (int i = 0; i < b.count; ++i) {
+        const double rise = here[b.index[i]] - there[static_cast<std::size_t>(b.index[i])][k];
+        s.A(i, j) = s.scale[i] * s.scale[j] * rise / step + (i == j);
+      }
+    }
   }
   s.modes = math::symmetric_modes(0.5 * (s.A + s.A.transpose()));
   return s;
@@ -117,9 +152,10 @@ bool StaticDeformation::stop(const StrainVector& change, Block& b, StrainVector&
 
 StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const {
   double reach = first_reach;
+  TipKinematics tip = tip_at(q);
   for (int n = 0; n < max_changes && b.count > 0; ++n) {
-    const StrainVector unbalanced = imbalance(q);
-    const Slope s = slope(q, b);
+    const StrainVector unbalanced = imbalance(q, tip);
+    const Slope s = slope(q, tip, b);
     const auto of_block = [&](const StrainVector& all) {
       StrainVector v(b.count);
       for (int i = 0; i < b.count; ++i) v[i] = all[b.index[i]];
@@ -130,15 +166,20 @@ StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const
     const double moved = s.moves.dot(change.cwiseAbs());
     const double whole = std::min(moved, reach);
     if (moved > reach) change *= reach / moved;
-    if (stop(change, b, q)) continue;
+    if (stop(change, b, q)) {
+      tip = tip_at(q);
+      continue;
+    }
     bool went = false;
     // Accept the change if the force along it has decreased at its end and has not overshot.
     for (int halving = 0; halving < max_search_halvings; ++halving, change *= 0.5) {
       StrainVector tried = q;
       for (int i = 0; i < b.count; ++i) tried[b.index[i]] += change[i];
       if (!shape_.admissible(tried)) continue;
-      if (!(of_block(imbalance(tried)).dot(change) <= overshot * std::abs(r.dot(change)))) continue;
+      const TipKinematics there = tip_at(tried);
+      if (!(of_block(imbalance(tried, there)).dot(change) <= overshot * std::abs(r.dot(change)))) continue;
       q = tried;
+      tip = there;
       went = true;
       break;
     }
@@ -161,8 +202,9 @@ RestStrain StaticDeformation::under_load(const StrainVector& from) const {
   for (int i = 0; i < free_torsion.count; ++i) free.index[free.count++] = free_torsion.index[i];
   rest.imbalance.setZero(shape_.size());
   if (free.count == 0) return rest;
-  const StrainVector unbalanced = imbalance(rest.q);
-  const Slope s = slope(rest.q, free);
+  const TipKinematics tip = tip_at(rest.q);
+  const StrainVector unbalanced = imbalance(rest.q, tip);
+  const Slope s = slope(rest.q, tip, free);
   const StrainMatrix inverse = s.inverse();
   for (int j = 0; j < free.count; ++j) {
     rest.imbalance[free.index[j]] = unbalanced[free.index[j]];

@@ -43,10 +43,16 @@ class StaticDeformation {
   };
   struct Slope;
   Block block(bool torsion) const;
-  StrainVector imbalance(const StrainVector& q) const;  ///< elastic force minus that of the load
+  TipKinematics tip_at(const StrainVector& q) const;  ///< at rest
+  StrainVector force(const TipKinematics& tip, const Vector6d& load_H) const;
+  /// Generalised force of the load at several strains, of all coordinates.
+  using Forces = std::array<math::Pack, max_strain_coordinates>;
+  Forces forces(const math::Pack* q) const;
+  /// Elastic force minus that of the load, with the tip at the strain `q`.
+  StrainVector imbalance(const StrainVector& q, const TipKinematics& tip) const;
   /// Derivative of the imbalance with respect to the block's coordinates, and the tip's displacement per unit of each,
   /// as a fraction of the fork's length or in radians.
-  Slope slope(const StrainVector& q, const Block& block) const;
+  Slope slope(const StrainVector& q, const TipKinematics& tip, const Block& block) const;
   /// Equilibrium of the block's coordinates; returns those that are not at the end of the rod's range.
   Block find(Block block, StrainVector& q) const;
   /// Moves the coordinates that `change` would take out of the range to its end, and removes them from the block.
