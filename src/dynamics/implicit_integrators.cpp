@@ -36,9 +36,8 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
     a = body.acceleration(end, next.q, next.q_dot);
     const double size = motion.size(change);
     if (i == 0) first_change = size;
-    // What the iterations after this one would change, by the rate of convergence.
-    const double rate = i > 1 ? std::min(size / last_change, 1.0) : 1.0,
-                 left = std::min(1.0, rate / (1.0 - rate)) * size;
+    const double rate = i > 1 ? std::min(size / last_change, 1.0) : 1.0;
+    const double left = std::min(1.0, rate / (1.0 - rate)) * size;  // to be changed by iterations after this one
     converged = left <= newton_tolerance * (first_change + motion.size(next.q_dot) + motion.size(next.q) / h);
     if (i > 1 && !(size < last_change)) {  // the first change closes a gap of the strain, too: no rate follows from it
       converged = converged || size < newton_rounding * first_change;

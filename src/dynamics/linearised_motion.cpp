@@ -22,7 +22,6 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
 LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const HandleForcings& moment,
                                    const StrainState& state, const rod::StrainVector& q_ddot)
     : LinearisedMotion(body, handle, state.q) {
-  const rod::StrainMatrix stiffness = K, damping = D;
   const rod::StrainVector units = body.units();
   math::by_size(body.size(), [&](auto size) {
     constexpr int n = decltype(size)::value;
@@ -41,9 +40,9 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
         const int j = (first + k) % n;
         const bool strain = first + k < n;
         const double step = strain ? q[j][k] - state.q[j] : q_dot[j][k] - state.q_dot[j];
-        rod::StrainVector change(n);
-        for (int i = 0; i < n; ++i) change[i] = moved[i][k] - q_ddot[i];
-        (strain ? K : D).col(j) -= (M * change + (strain ? stiffness : damping).col(j) * step) / step;
+        rod::StrainVector force(n);  // times M⁻¹
+        for (int i = 0; i < n; ++i) force[i] = moved[i][k] - q_ddot[i];
+        (strain ? K : D).col(j) -= (M * force + step * (strain ? K : D).col(j)) / step;
       }
     }
   });
