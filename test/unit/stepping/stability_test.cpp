@@ -159,6 +159,56 @@ TEST_P(StableIntegrator, AnObjectThatIsAtTwoStopsRestsThere) {
   }
 }
 
+TEST(Stop, GainsNoEnergyWhereTheHandsAccelerationRises) {
+  // Compressed by its weight it turns about the fork's axis, sliding along the stop, while the hand goes sideways.
+  for (const double jerk : {400.0, -400.0}) {  // [m/s³]
+    constexpr double h = 1e-3, duration = 0.1;
+    const HeldBody held = body_of({0.0, 2.0, h, 0.0, 1 + 4, Hand::jump}, "linear");
+    const StepControl control(make_integrator(IntegratorKind::exponential));
+    StepControl::Memory memory;
+    RigidTransform there = RigidTransform::Identity();
+    there.translation().y() = jerk * std::pow(duration, 3) / 6.0;
+    const Vector3d still = Vector3d::Zero(), fast(0.0, jerk * duration * duration / 2.0, 0.0);
+    const motion::MotionSegment hand({0.0, RigidTransform::Identity()}, still, still, {duration, there}, fast, still);
+    StrainState state = held.zero_state();
+    state.q[1] = -0.98 + 1e-9;
+    state.q_dot[0] = 50.0;  // of the twist, over the length
+    const auto seen_from_hand = [&] { return held.object(HandleForcing(), state); };
+    const auto energy = [&] {
+      const motion::MotionState o = seen_from_hand();
+      return held.kinetic_energy(o.velocity, o.X.linear()) + 2.0 * 9.81 * o.X.translation().z();
+    };
+    const double begin = energy();
+    double work = 0.0, of_one_step = 0.0;  // of the hand's acceleration; of its change over a step
+    int stops = 0;
+    for (int i = 0; i < 100; ++i) {
+      const double v = seen_from_hand().velocity.linear.y();
+      stops += control.advance(held, hand, i * h, h, state, memory).stops;
+      const double v_then = seen_from_hand().velocity.linear.y();
+      work -= 0.5 * h * 2.0 * jerk * h * (i * v + (i + 1) * v_then);
+      of_one_step += 0.5 * h * std::abs(2.0 * jerk * h * v);
+    }
+    EXPECT_GT(stops, 90);
+    EXPECT_LT(energy() - begin - work, 0.05 * of_one_step) << jerk;
+  }
+}
+
+TEST(ImplicitEuler, SolvesWholeStepsOfAVeryStiffFork) {
+  // The first change of Newton's method is of the size of rounding errors there.
+  const HeldBody held = body_of({1e12, 1.0, 1e-3, 0.0, 7, Hand::noise}, "linear");
+  const StepControl control(make_integrator(IntegratorKind::implicit_euler));
+  StepControl::Memory memory;
+  std::mt19937 random(3);
+  motion::PoseTrack track;
+  for (double t = 0.0; t < 1.05; t += 0.02) track.push({t, pose(Hand::noise, t, random)});
+  StrainState state = held.zero_state();
+  int taken = 0;
+  for (int i = 0; i < 1000; ++i) {
+    taken += control.advance(held, track.segment(i * 1e-3 + 1e-9), i * 1e-3, 1e-3, state, memory).steps;
+  }
+  EXPECT_EQ(taken, 1000);
+}
+
 TEST(UndampedFork, GainsNoEnergyWhileTheHandTremblesByANanometre) {
   // After a leap of 1 m and after a half turn. What the hand's tremor can do is far below what is asked.
   for (const Hand hand : {Hand::jump, Hand::flip}) {
