@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::geometry {
 namespace {
@@ -56,6 +58,21 @@ double free_fraction_to(const OutlineBox& own, const StraightMotion& motion, con
   const double clear = free_fraction_above(own, motion, {n_W, top}, tolerance, limit);
   if (clear >= limit) return clear;
   return std::max(clear, free_fraction_to_corners(own, motion, other, n_W, tolerance, limit));
+}
+
+double free_fraction_past(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
+                          double tolerance, double limit) {
+  double gone = 0.0;
+  for (double advance = limit; advance > least_advance * limit && gone < limit; gone += advance) {
+    const Matrix3d turned = math::exp_so3(gone * motion.turn_W);
+    StraightMotion left = motion;
+    left.p_WO += gone * motion.move_W;
+    OutlineBox here = own;
+    here.X.translation() = left.p_WO + turned * (own.X.translation() - motion.p_WO);
+    here.X.linear() = turned * own.X.linear();
+    advance = free_fraction_to(here, left, other, tolerance, limit - gone);
+  }
+  return std::min(gone, limit);
 }
 
 }  // namespace spring_workbench::geometry

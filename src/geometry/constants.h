@@ -15,6 +15,10 @@ constexpr double edge_margin_fraction = 0.05;
 /// Distance by which a contact must be deeper than one of the four that are kept to replace it [m]. Test: none: no
 /// value tried makes one fail.
 constexpr double depth_advantage = 1e-6;
+/// Fraction of a path; what a new separating plane adds is looked for until it adds less. If larger, bodies that turn
+/// towards each other are stopped although they do not touch. Test:
+/// ClearWay.WithANewPlaneWhereTheLastOneEndsItLeadsToTheTouch at 1.
+constexpr double least_advance = 0.01;
 /// Distance below which contacts of two solids with the same normal are merged [m]. If smaller, a contact at a seam
 /// within a face is found twice. Test: Solids.FlushFacesTouchWithTheirCornersOnce at 0.
 constexpr double same_place = 1e-7;

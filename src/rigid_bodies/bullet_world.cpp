@@ -413,7 +413,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
         const geometry::OutlineBox there{X_before * box.X, box.half, box.exact};
         const geometry::BoxGap gap = geometry::gap_between(here, there);
         if (own.exact && box.exact) {
-          part = geometry::free_fraction_to(here, relative, there, tolerance(gap, i), part);
+          part = geometry::free_fraction_past(here, relative, there, tolerance(gap, i), part);
         } else {
           by_extent(gap, relative, most_O);
         }

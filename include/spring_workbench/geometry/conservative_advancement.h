@@ -29,4 +29,9 @@ double free_fraction_above(const OutlineBox& own, const StraightMotion& motion, 
 double free_fraction_to(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
                         double limit);
 
+/// Returns that fraction with a new separating plane wherever the last one ends, as long as that leads further: the
+/// plane of two boxes that turn towards each other ends although they do not touch.
+double free_fraction_past(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
+                          double tolerance, double limit);
+
 }  // namespace spring_workbench::geometry

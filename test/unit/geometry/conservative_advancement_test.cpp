@@ -42,6 +42,27 @@ TEST(ClearWay, NoBoxIsDeeperOnItThanTheTolerance) {
   EXPECT_GT(long_paths, 200);
 }
 
+TEST(ClearWay, WithANewPlaneWhereTheLastOneEndsItLeadsToTheTouch) {
+  Random random(8);
+  int longer = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto size = [&] { return Vector3d(random.vector(0.1).cwiseAbs() + Vector3d::Constant(0.005)); };
+    const OutlineBox own{random.pose(0.2), size(), true}, other{random.pose(0.2), size(), true};
+    const StraightMotion motion{own.X.translation(), random.vector(0.5), random.vector(2.0)};
+    const double tolerance = i % 2 ? 1e-3 : 0.0;
+    if (gap_between(own, other).gap < -tolerance) continue;
+    const double clear = free_fraction_past(own, motion, other, tolerance, 1.0);
+    for (int k = 0; k <= 20; ++k) {
+      EXPECT_GE(gap_between(moved(own, motion, clear * k / 20.0), other).gap, -tolerance - 1e-12) << i;
+    }
+    if (free_fraction_to(own, motion, other, tolerance, 1.0) < clear - 0.05) ++longer;
+    if (clear == 1.0) continue;
+    const double path = motion.move_W.norm() + motion.turn_W.norm() * own.half.norm();
+    EXPECT_LT(gap_between(moved(own, motion, clear), other).gap, -tolerance + 0.02 * path) << i;
+  }
+  EXPECT_GT(longer, 50);
+}
+
 TEST(ClearWay, StraightOntoAFaceItIsExact) {
   const OutlineBox own{RigidTransform(Eigen::Translation3d(0, 0, 0.5)), Vector3d::Constant(0.1), true};
   const OutlineBox other{RigidTransform::Identity(), Vector3d(1.0, 1.0, 0.1), true};
