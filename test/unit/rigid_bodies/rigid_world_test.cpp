@@ -331,6 +331,21 @@ TEST(RigidWorld, PressedAndDraggedLagsByFrictionOverStiffness) {
   }
 }
 
+TEST(RigidWorld, ADrivenBodyMakesRoomForALightOneThatComesOutOfTheBench) {
+  for (const double k : {1e3, 1e6, 1e9}) {
+    const double deep = 9e-5, h = 1e-3;
+    const scene::Body light = box("light", Vector3d::Constant(0.1), 1e-3, Vector3d(0, 0, 0.05 - deep));
+    const scene::Body held = box("held", Vector3d::Constant(0.1), 1.0, Vector3d(0, 0, 0.15 - deep));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({held, light}, scene::ContactMode::dynamic));
+    RigidWorld& world = *owner;
+    OnSpring spring{k, Vector3d(0, 0, 0.12), {}};
+    spring.driven.X_WO.translation() = held.X_WO.translation();
+    for (int i = 0; i < 100; ++i) spring.step(world, spring.hand, h);
+    EXPECT_NEAR(spring.driven.X_WO.translation().z(), 0.15, 5e-6) << k;
+    EXPECT_NEAR(world.pose(1).translation().z(), 0.05, 5e-6) << k;
+  }
+}
+
 TEST(RigidWorld, DrivenBodyPushesANeighbourAndCarriesAnother) {
   // A tray on a stiff spring is lifted with a cup on it; then it pushes a block along the bench.
   scene::Body tray = box("tray", Vector3d(0.2, 0.2, 0.02), 1.0, Vector3d(0, 0, 0.01));
