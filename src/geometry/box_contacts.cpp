@@ -118,6 +118,12 @@ BoxContact of_edges(const OutlineBox& a, const OutlineBox& b, const Axis& axis) 
   return {on_b + std::clamp(s, -reach_b, reach_b) * along_b, axis.n_W, axis.gap};
 }
 
+/// Returns whether the other box has a face that is nearly parallel to that of the axis.
+bool flush(const OutlineBox& a, const OutlineBox& b, const Axis& face) {
+  const OutlineBox& other = face.of_b >= 0 ? a : b;
+  return (other.X.linear().transpose() * face.n_W).cwiseAbs().maxCoeff() > 1.0 - 0.5 * slope_of_flush * slope_of_flush;
+}
+
 }  // namespace
 
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double margin) {
@@ -131,8 +137,10 @@ std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, d
     for (int k = 0; k < 3; ++k) look(a, b, a.X.linear().col(i).cross(b.X.linear().col(k)), i, k, edges);
   }
   if (edges.gap > margin) return {};
-  if (edges.gap > faces.gap + edge_margin + edge_margin_fraction * std::abs(faces.gap)) return {of_edges(a, b, edges)};
-  return of_faces(a, b, faces, margin);
+  std::vector<BoxContact> contacts = of_faces(a, b, faces, margin);
+  const bool edges_first = edges.gap > faces.gap + edge_margin + edge_margin_fraction * std::abs(faces.gap);
+  if (edges_first && (contacts.empty() || !flush(a, b, faces))) return {of_edges(a, b, edges)};
+  return contacts;
 }
 
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const Vector3d& n_W, double height, double margin) {

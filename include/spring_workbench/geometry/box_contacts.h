@@ -14,8 +14,8 @@ struct BoxContact {
 };
 
 /// Returns the contacts of two boxes with a gap smaller than `margin` [m] along the direction in which they are
-/// furthest apart: up to four points of one face clipped to the other face, or the crossing of two edges. Empty if the
-/// boxes would pass each other along this direction.
+/// furthest apart: up to four points of one face clipped to the other face, or the crossing of two edges where no faces
+/// are nearly parallel above each other. Empty if the boxes would pass each other along this direction.
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double margin);
 
 /// Returns the contacts of a box with the half-space `n · x < height`: the corners of the face that looks towards it.
