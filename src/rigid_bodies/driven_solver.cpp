@@ -95,22 +95,11 @@ std::vector<DrivenSolver::Contact> DrivenSolver::make_contacts(const btContactSo
       c.n_W = (a < b ? 1.0 : -1.0) * from_bullet(c.point->m_normalWorldOnB);
       c.surface = surfaces_.between(a, b, c.n_W, closes_fast(c));
     }
-    // An indentation is no penetration, neither a deep one nor one for Bullet to undo. Driven bodies undo theirs by
-    // load.
+    // An indentation is no penetration, neither deep nor for Bullet to undo; those of driven bodies are by loads.
     if (c.surface >= 0 || drives(c)) m_tmpSolverContactConstraintPool[i].m_rhsPenetration = 0.0;
     if (c.surface < 0) deepest_ = std::max(deepest_, -c.gap);
   }
   return contacts;
-}
-
-void DrivenSolver::follow_corrections(const btContactSolverInfo& info, std::vector<Contact>& contacts) const {
-  for (Contact& c : contacts) {
-    if (!drives(c)) continue;
-    for (const auto& [body, J] : {std::pair(c.a, &c.J_a), std::pair(c.b, &c.J_b)}) {
-      const btSolverBody& moved = m_tmpSolverBodyPool[static_cast<int>(body)];
-      c.missing[0] -= J->row(0).dot(both(moved.m_pushVelocity, info.m_splitImpulseTurnErp * moved.m_turnVelocity));
-    }
-  }
 }
 
 void DrivenSolver::obey_surfaces(std::vector<Contact>& contacts) {
@@ -238,7 +227,7 @@ btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bod
   std::vector<Contact> contacts = make_contacts(info, manifolds, manifold_count);
   solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count, constraints,
                                                 constraint_count, info, debug);
-  follow_corrections(info, contacts);
+  follow_corrections(info, m_tmpSolverBodyPool, contacts, [&](const Contact& c) { return drives(c); });
   std::vector<Vector6d> change = stop_approaches(contacts);
   obey_surfaces(contacts);
   solve(contacts, false, change);

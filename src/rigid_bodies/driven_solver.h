@@ -45,8 +45,6 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   using Contact = SolverContact;
   Contact make_contact(int index, const btContactSolverInfo& info) const;
   std::vector<Contact> make_contacts(const btContactSolverInfo& info, btPersistentManifold** manifolds, int count);
-  /// Lets driven bodies make room for what Bullet moves out of other bodies in this step.
-  void follow_corrections(const btContactSolverInfo& info, std::vector<Contact>& contacts) const;
   /// Lets contacts with a surface obey its law.
   void obey_surfaces(std::vector<Contact>& contacts);
   bool closes_fast(const Contact& contact) const;  ///< above the speed at which it bounces

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
+#include "bullet_types.h"
 #include "spring_workbench/friction/bounce.h"
 
 class btManifoldPoint;
@@ -34,5 +36,18 @@ inline std::vector<friction::BouncingContact*> bouncing(std::vector<SolverContac
 
 /// Returns the user indices of the two bodies of a contact, which is in one of the manifolds.
 std::pair<int, int> bodies_of(const btManifoldPoint& point, btPersistentManifold** manifolds, int manifold_count);
+
+/// Lets contacts of driven bodies move with what Bullet moves out of other bodies in this step.
+template <typename Drives>
+void follow_corrections(const btContactSolverInfo& info, const btAlignedObjectArray<btSolverBody>& bodies,
+                        std::vector<SolverContact>& contacts, const Drives& drives) {
+  for (SolverContact& c : contacts) {
+    if (!drives(c)) continue;
+    for (const auto& [body, J] : {std::pair(c.a, &c.J_a), std::pair(c.b, &c.J_b)}) {
+      const btSolverBody& moved = bodies[static_cast<int>(body)];
+      c.missing[0] -= J->row(0).dot(both(moved.m_pushVelocity, info.m_splitImpulseTurnErp * moved.m_turnVelocity));
+    }
+  }
+}
 
 }  // namespace spring_workbench::rigid_bodies
