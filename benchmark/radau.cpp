@@ -48,6 +48,7 @@ class Radau final : public AdaptiveSolver {
     newton_tolerance_ =
         std::max(10.0 * std::numeric_limits<double>::epsilon() / tolerance, std::min(0.03, std::sqrt(tolerance)));
     jacobian_known_ = factored_ = stepped_ = false;
+    convergence_ = 1.0;
   }
 
  private:
@@ -79,11 +80,13 @@ class Radau final : public AdaptiveSolver {
     factored_for_ = h;
   }
 
-  /// Newton's method for the stages minus the start; returns false if it does not converge.
+  /// Newton's method for the stages minus the start; returns false if it does not converge. It may end after one
+  /// iteration if the last step's converged fast.
   bool solve_stages(double h, Stages& z) {
     const State scale = absolute_ + tolerance_ * y_.cwiseAbs();
     Stages w = z * kInverseT.transpose(), f(size_, 3);
     double last = -1.0;
+    convergence_ = std::pow(std::max(convergence_, std::numeric_limits<double>::epsilon()), 0.8);
     State at;
     for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
       for (int i = 0; i < 3; ++i) {
@@ -105,9 +108,10 @@ class Radau final : public AdaptiveSolver {
                                              newton_tolerance_)) {
         return false;
       }
+      if (last > 0.0) convergence_ = rate_ / (1.0 - rate_);
       w += change;
       z = w * kT.transpose();
-      if (size == 0.0 || (last > 0.0 && rate_ / (1.0 - rate_) * size < newton_tolerance_)) return true;
+      if (convergence_ * size < newton_tolerance_) return true;
       last = size;
     }
     return false;
@@ -192,7 +196,7 @@ class Radau final : public AdaptiveSolver {
   Jacobian jacobian_;
   Eigen::PartialPivLU<Jacobian> real_;
   Eigen::PartialPivLU<ComplexMatrix> complex_;
-  double factored_for_ = 0.0, rate_ = 0.0, last_h_ = 0.0, last_error_ = 0.0;
+  double factored_for_ = 0.0, rate_ = 0.0, convergence_ = 1.0, last_h_ = 0.0, last_error_ = 0.0;
   int iterations_ = 0;
   bool jacobian_known_ = false, factored_ = false, stepped_ = false;
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxEquations, 3> dense_;

@@ -98,8 +98,8 @@ std::vector<RodCase> soft_and_stiff() {
   for (const auto& [name, factor, mass] : {std::tuple{"soft_light", 1.0, 1e-3},
                                            {"soft_heavy", 1.0, 1.0},
                                            {"stiff_light", 1e3, 1e-3},
-                                           {"stiff", 3e4, 1.0},
-                                           {"stiff_heavy", 3e4, 1e3}}) {
+                                           {"stiff_heavy", 3e4, 1e3},
+                                           {"stiff", 3e4, 1.0}}) {
     RodCase one;
     one.name = name;
     one.stiffness_factor = factor;
