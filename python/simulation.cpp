@@ -10,23 +10,31 @@ using simulation::SimulationSettings;
 
 namespace {
 
-/// The values of stretching, bending and twisting.
-std::optional<rod::PerDof> per_dof(const std::optional<std::array<double, 3>>& values) {
-  if (!values) return std::nullopt;
-  return rod::PerDof{(*values)[0], (*values)[1], (*values)[2]};
+/// The values of stretch, bend and torsion; none for None. Throws InputError naming `key` for anything else.
+template <typename T>
+std::optional<std::array<T, 3>> per_dof(const py::object& values, const std::string& key) {
+  if (values.is_none()) return std::nullopt;
+  try {
+    return values.cast<std::array<T, 3>>();
+  } catch (const py::cast_error&) {
+    const std::string kind = std::is_same_v<T, bool> ? "booleans" : "numbers";
+    throw validation::InputError(key + ": must be three " + kind + ", of stretch, bend and torsion, got " +
+                                 py::repr(values).cast<std::string>());
+  }
 }
 
-void change(Simulation& of, const std::optional<std::array<double, 3>>& stiffness,
-            const std::optional<std::array<double, 3>>& damping_ratio, const std::optional<std::array<bool, 3>>& dofs,
+void change(Simulation& of, const py::object& stiffness, const py::object& damping_ratio, const py::object& dofs,
             const std::optional<std::string>& integrator, std::optional<double> step, std::optional<double> tolerance) {
   simulation::ForkChange fork;
-  if (stiffness) {
-    fork.stretch_stiffness = (*stiffness)[0];
-    fork.bend_stiffness = (*stiffness)[1];
-    fork.torsion_stiffness = (*stiffness)[2];
+  if (const auto k = per_dof<double>(stiffness, "stiffness")) {
+    fork.stretch_stiffness = (*k)[0];
+    fork.bend_stiffness = (*k)[1];
+    fork.torsion_stiffness = (*k)[2];
   }
-  fork.damping_ratio = per_dof(damping_ratio);
-  if (dofs) fork.dofs = rod::ForkDofs{(*dofs)[0], (*dofs)[1], (*dofs)[2]};
+  if (const auto z = per_dof<double>(damping_ratio, "damping_ratio")) {
+    fork.damping_ratio = rod::PerDof{(*z)[0], (*z)[1], (*z)[2]};
+  }
+  if (const auto on = per_dof<bool>(dofs, "dofs")) fork.dofs = rod::ForkDofs{(*on)[0], (*on)[1], (*on)[2]};
   simulation::DynamicsChange dynamics;
   if (integrator) dynamics.integrator = value_of<dynamics::IntegratorKind>(*integrator, "integrator");
   dynamics.step = step;
@@ -121,7 +129,7 @@ void bind_state_access(py::class_<Simulation>& type) {
           "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
           "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
       .def_property_readonly("contacts", &Simulation::contacts,
-                             "Contact points at the current time: a list of Contact.")
+                             "Contact points at the current time: a list of ContactState.")
       .def("fork", &Simulation::fork, py::arg("hand") = 0,
            "Returns the state of the tool in a hand, whether or not it is a fork.")
       .def("save", &Simulation::save, "Returns the whole state.")
@@ -146,7 +154,7 @@ void bind_changes(py::class_<Simulation>& type) {
            py::arg("tolerance") = py::none(),
            R"(Changes every fork and the integration, all or nothing; values that are not given stay as they are.
 
-stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: of the same three; dofs: True for each of
+stiffness: of stretch, bend [N/m] and torsion [N m/rad]; damping_ratio: of the same three; dofs: True for each of
 the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not allowed.)")
       .def(
           "calibrate", [](Simulation& s) { s.calibrate(); },
@@ -163,19 +171,19 @@ the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputEr
 Raises InputError, and changes nothing, if a name is not that of a movable object or a pose is invalid.)")
       .def(
           "edit",
-          [](Simulation& s, const std::string& action, const std::string& name, const std::string& urdf,
+          [](Simulation& s, const std::string& action, const std::string& object, const std::string& urdf,
              const std::optional<Array>& pose, double mass, double friction) {
             simulation::ObjectEdit edit;
             edit.action = value_of<simulation::ObjectEdit::Action>(action, "edit: action");
-            edit.object = name;
+            edit.object = object;
             edit.urdf = urdf;
             if (pose) edit.X_WL = to_pose(*pose, "edit: pose");
             edit.mass = mass;
             edit.friction = friction;
             s.edit(edit);
           },
-          py::arg("action"), py::arg("name"), py::arg("urdf") = "", py::arg("pose") = py::none(), py::arg("mass") = 0.0,
-          py::arg("friction") = 0.0,
+          py::arg("action"), py::arg("object"), py::arg("urdf") = "", py::arg("pose") = py::none(),
+          py::arg("mass") = 0.0, py::arg("friction") = 0.0,
           R"(Changes one object, all or nothing; everything else continues from where it is.
 
 action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose), remove,
@@ -199,7 +207,8 @@ void bind_settings(py::module_& module) {
   const auto update = [](SimulationSettings& settings, const py::dict& values) {
     simulation::apply_settings(to_yaml(values), "settings", settings);
   };
-  py::class_<SimulationSettings>(module, "Settings", "Settings of a simulation; setting_descriptions() explains them.")
+  py::class_<SimulationSettings>(module, "SimulationSettings",
+                                 "Settings of a simulation; setting_descriptions() explains them.")
       .def(py::init([=](const py::dict& values) {
              SimulationSettings settings;
              update(settings, values);
@@ -219,7 +228,7 @@ void bind_simulation(py::module_& module) {
 It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus, at
 most the setting `styluses` - 1; any other raises InputError.)");
   type.def(py::init<const scene::Scene&, const SimulationSettings&>(), py::arg("scene"),
-           py::arg_v("settings", SimulationSettings(), "Settings()"),
+           py::arg_v("settings", SimulationSettings(), "SimulationSettings()"),
            "Starts a simulation of `scene`. Raises InputError if settings and scene do not match.")
       .def(
           "push_stylus",
@@ -247,7 +256,7 @@ the next one, at most for external_wrench_timeout. Raises InputError if a value 
       .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0,
            "Adds all samples and button edges of a recorded motion.")
       .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
-           R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report.
+           R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
 If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act. Raises
 InputError if t_end is not finite.)");

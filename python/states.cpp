@@ -23,7 +23,7 @@ void bind_fork(py::module_& module) {
   const auto per_dof = [](const rod::PerDof& values) {
     return to_array(Vector3d(values.stretch, values.bend, values.torsion));
   };
-  py::class_<ToolState>(module, "Fork", "State of the tool in one hand at one moment.")
+  py::class_<ToolState>(module, "ToolState", "State of the tool in one hand at one moment.")
       .def_readonly("present", &ToolState::present, "True once a sample of this hand has arrived.")
       .def_property_readonly(
           "tool", [](const ToolState& s) { return word(s.tool); },
@@ -43,13 +43,13 @@ void bind_fork(py::module_& module) {
           [](const ToolState& s) {
             return std::array<bool, 3>{s.dofs.stretch, s.dofs.bend, s.dofs.torsion};
           },
-          "True for each of stretching, bending and twisting that is on; a DOF that is off is rigid.")
+          "True for each of stretch, bend and torsion that is on; a DOF that is off is rigid.")
       .def_property_readonly(
           "stiffness", [=](const ToolState& s) { return per_dof(s.stiffness); },
-          "Stiffness of stretching, bending [N/m] and twisting [N m/rad]; shape (3,).")
+          "Stiffness of stretch, bend [N/m] and torsion [N m/rad]; shape (3,).")
       .def_property_readonly(
           "damping_ratio", [=](const ToolState& s) { return per_dof(s.damping_ratio); },
-          "Damping ratio of stretching, bending and twisting; shape (3,).")
+          "Damping ratio of stretch, bend and torsion; shape (3,).")
       .def_property_readonly(
           "strain", [](const ToolState& s) { return to_array(s.strain); },
           "Strain coordinates of the shape model; shape (n,), n at most 6.")
@@ -76,9 +76,8 @@ void bind_fork(py::module_& module) {
       .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the fork [J].")
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
       .def_readonly("error_bound", &ToolState::error_bound,
-                    "Bound of the error of integration since the grasp, in position [m]; see `error_bounded`.")
-      .def_readonly("error_bounded", &ToolState::error_bounded,
-                    "Whether the setting `error_bound` is on and the bound holds now; not, e.g., in contact.")
+                    "Bound of the error of integration in position, since the grasp or the last step without a bound "
+                    "[m]; None if the setting `error_bound` is off, and, e.g., in contact.")
       .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
@@ -87,7 +86,7 @@ void bind_fork(py::module_& module) {
 
 void bind_contact(py::module_& module) {
   using contact::ContactState;
-  py::class_<ContactState>(module, "Contact", "Contact point between an object and another body, in world axes.")
+  py::class_<ContactState>(module, "ContactState", "Contact point between an object and another body, in world axes.")
       .def_readonly("object", &ContactState::object, "Name of the object.")
       .def_readonly("other", &ContactState::other, "Name of the other body, or `workbench`.")
       .def_property_readonly(
@@ -106,7 +105,7 @@ void bind_contact(py::module_& module) {
 
 void bind_report(py::module_& module) {
   using simulation::AdvanceReport;
-  py::class_<AdvanceReport>(module, "Report", "Report of one call of `advance`.")
+  py::class_<AdvanceReport>(module, "AdvanceReport", "Report of one call of `advance`.")
       .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
       .def_readonly("substeps", &AdvanceReport::substeps,
                     "Number of attempts that were discarded and repeated with a shorter step (equation not solved, or "
@@ -117,8 +116,8 @@ void bind_report(py::module_& module) {
                     "Largest estimate of a step's local error in the angle [rad].")
       .def_readonly(
           "error_bound", &AdvanceReport::error_bound,
-          "Largest bound of the error of integration since the grasp, in position [m], over the steps that have "
-          "one; 0 if none has, as without the setting `error_bound`.")
+          "Largest bound of the error of integration in position, since the grasp or the last step without a bound "
+          "[m]; None if no step has one, as without the setting `error_bound`.")
       .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound, "The same in angle [rad].")
       .def_readonly(
           "steps_unbounded", &AdvanceReport::steps_unbounded,
@@ -148,7 +147,8 @@ void bind_states(py::module_& module) {
   bind_fork(module);
   bind_contact(module);
   bind_report(module);
-  py::class_<SimulationState>(module, "State", "Saved state of a whole simulation. It can be compared and pickled.")
+  py::class_<SimulationState>(module, "SimulationState",
+                              "Saved state of a whole simulation. It can be compared and pickled.")
       .def_property_readonly(
           "hash", [](const SimulationState& s) { return simulation::to_hex(s.hash()); },
           "Hash of the state, 16 hexadecimal digits: equal states have equal hashes on every machine.")

@@ -1,6 +1,36 @@
 #pragma once
 
-// Everything that a program needs of the library.
+/// Everything that a program needs of the library. Begin with simulation::Simulation, scene::load_scene() and
+/// make_transform(); doc/library.md shows how they work together.
+namespace spring_workbench {
+/// Scenes, read from URDF.
+namespace scene {}
+/// The simulation, its settings, changes and reports.
+namespace simulation {}
+/// Tools in the hand, their settings and states.
+namespace tools {}
+/// The elastic rod of the spring-fork.
+namespace rod {}
+/// Motion of a held object, and integrators for it.
+namespace dynamics {}
+/// States of movable objects.
+namespace bodies {}
+/// States of contacts.
+namespace contact {}
+/// Shapes of bodies.
+namespace geometry {}
+/// Motions of tracked frames.
+namespace motion {}
+/// Readers of recorded motions.
+namespace motion_files {}
+/// Filters between a tracker and the simulation.
+namespace hand_input {}
+/// Numbers and saved states.
+namespace math {}
+/// Errors in input.
+namespace validation {}
+}  // namespace spring_workbench
+
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/motion_files/open_motion.h"

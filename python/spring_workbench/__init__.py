@@ -2,7 +2,7 @@
 
     import spring_workbench as sw
 
-    simulation = sw.Simulation(sw.load_scene("box.urdf"), sw.Settings({"contact": "none"}))
+    simulation = sw.Simulation(sw.load_scene("box.urdf"), sw.SimulationSettings({"contact": "none"}))
     simulation.push_motion(sw.read_motion("hand.tum"))
     simulation.advance(1.0)
     print(simulation.poses)
@@ -13,16 +13,16 @@ given; the state is then unchanged.
 """
 
 _NAMES = [
-    "Contact",
-    "Fork",
+    "AdvanceReport",
+    "ContactState",
     "InputError",
     "Motion",
-    "Report",
     "Scene",
     "SettingDescription",
-    "Settings",
     "Simulation",
-    "State",
+    "SimulationSettings",
+    "SimulationState",
+    "ToolState",
     "integrators",
     "load_scene",
     "pose",

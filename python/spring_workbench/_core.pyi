@@ -32,7 +32,7 @@ class SettingDescription:
     def meaning(self) -> str:
         """What the setting does."""
 
-class Settings:
+class SimulationSettings:
     """Settings of a simulation; setting_descriptions() explains them."""
     def __init__(self, values: Mapping[str, Any] = ...) -> None:
         """values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown
@@ -78,7 +78,7 @@ class Motion:
     def buttons(self) -> _Bools:
         """True for each sample at which the grasp button is down; shape (n,)."""
 
-class Fork:
+class ToolState:
     """State of the tool in one hand at one moment."""
     @property
     def present(self) -> bool:
@@ -103,13 +103,13 @@ class Fork:
         """Rest length of the fork [m]."""
     @property
     def dofs(self) -> List[bool]:
-        """True for each of stretching, bending and twisting that is on; a DOF that is off is rigid."""
+        """True for each of stretch, bend and torsion that is on; a DOF that is off is rigid."""
     @property
     def stiffness(self) -> _Floats:
-        """Stiffness of stretching, bending [N/m] and twisting [N m/rad]; shape (3,)."""
+        """Stiffness of stretch, bend [N/m] and torsion [N m/rad]; shape (3,)."""
     @property
     def damping_ratio(self) -> _Floats:
-        """Damping ratio of stretching, bending and twisting; shape (3,)."""
+        """Damping ratio of stretch, bend and torsion; shape (3,)."""
     @property
     def strain(self) -> _Floats:
         """Strain coordinates of the shape model; shape (n,), n at most 6."""
@@ -147,11 +147,9 @@ class Fork:
     def kinetic_energy(self) -> float:
         """Kinetic energy of the held object [J]."""
     @property
-    def error_bound(self) -> float:
-        """Bound of the error of integration since the grasp, in position [m]; see `error_bounded`."""
-    @property
-    def error_bounded(self) -> bool:
-        """Whether the setting `error_bound` is on and the bound holds now; not, e.g., in contact."""
+    def error_bound(self) -> Optional[float]:
+        """Bound of the error of integration in position, since the grasp or the last step without a bound [m]; None if
+        the setting `error_bound` is off, and, e.g., in contact."""
     @property
     def weight(self) -> float:
         """Upward force on the object divided by g [vkg]."""
@@ -162,7 +160,7 @@ class Fork:
     def material_stiffness(self) -> float:
         """Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading."""
 
-class Contact:
+class ContactState:
     """Contact point between an object and another body, in world axes."""
     @property
     def object(self) -> str:
@@ -192,7 +190,7 @@ class Contact:
     def phase(self) -> str:
         """Phase of the contact: started, persisting or ended."""
 
-class Report:
+class AdvanceReport:
     """Report of one call of `advance`."""
     @property
     def steps(self) -> int:
@@ -211,11 +209,11 @@ class Report:
     def angle_error(self) -> float:
         """Largest estimate of a step's local error in the angle [rad]."""
     @property
-    def error_bound(self) -> float:
-        """Largest bound of the error of integration since the grasp, in position [m], over the steps that have one;
-        0 if none has, as without the setting `error_bound`."""
+    def error_bound(self) -> Optional[float]:
+        """Largest bound of the error of integration in position, since the grasp or the last step without a bound [m];
+        None if no step has one, as without the setting `error_bound`."""
     @property
-    def angle_error_bound(self) -> float:
+    def angle_error_bound(self) -> Optional[float]:
         """The same in angle [rad]."""
     @property
     def steps_unbounded(self) -> int:
@@ -246,7 +244,7 @@ class Report:
     def skipped(self) -> List[str]:
         """Names of the subsystems that were not needed."""
 
-class State:
+class SimulationState:
     """Saved state of a whole simulation. It can be compared and pickled."""
     @property
     def hash(self) -> str:
@@ -259,7 +257,7 @@ class Simulation:
 
     It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus,
     at most the setting `styluses` - 1; any other raises InputError."""
-    def __init__(self, scene: Scene, settings: Settings = ...) -> None:
+    def __init__(self, scene: Scene, settings: SimulationSettings = ...) -> None:
         """Starts a simulation of `scene`. Raises InputError if settings and scene do not match."""
     def push_stylus(self, t: float, pose: npt.ArrayLike, hand: int = 0) -> bool:
         """Adds a pose of the stylus, shape (4, 4), at time t [s]; its z axis is that of the fork, from the hand to the
@@ -274,8 +272,8 @@ class Simulation:
         until the next one, at most for external_wrench_timeout. Raises InputError if a value is not allowed."""
     def push_motion(self, motion: Motion, hand: int = 0) -> None:
         """Adds all samples and button edges of a recorded motion."""
-    def advance(self, t_end: float) -> Report:
-        """Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report.
+    def advance(self, t_end: float) -> AdvanceReport:
+        """Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
         If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act.
         Raises InputError if t_end is not finite."""
@@ -304,13 +302,13 @@ class Simulation:
     def asleep(self) -> _Bools:
         """True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,)."""
     @property
-    def contacts(self) -> List[Contact]:
-        """Contact points at the current time: a list of Contact."""
-    def fork(self, hand: int = 0) -> Fork:
+    def contacts(self) -> List[ContactState]:
+        """Contact points at the current time: a list of ContactState."""
+    def fork(self, hand: int = 0) -> ToolState:
         """Returns the state of the tool in a hand, whether or not it is a fork."""
-    def save(self) -> State:
+    def save(self) -> SimulationState:
         """Returns the whole state."""
-    def restore(self, state: State) -> None:
+    def restore(self, state: SimulationState) -> None:
         """Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes
         nothing, if the state has other bodies, another contact mode, number of styluses or shape of the fork."""
     @property
@@ -331,7 +329,7 @@ class Simulation:
         """Changes every fork and the integration, all or nothing; values that are not given stay as they
         are.
 
-        stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: of the same three; dofs: True for
+        stiffness: of stretch, bend [N/m] and torsion [N m/rad]; damping_ratio: of the same three; dofs: True for
         each of the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not
         allowed."""
     def calibrate(self) -> None:
@@ -346,7 +344,7 @@ class Simulation:
     def edit(
         self,
         action: str,
-        name: str,
+        object: str,
         urdf: str = ...,
         pose: Optional[npt.ArrayLike] = None,
         mass: float = 0.0,

@@ -312,7 +312,7 @@ bool ObjectEdit::operator==(const ObjectEdit& other) const {
 }
 
 void validate(const ObjectEdit& edit) {
-  const std::string where = "edit_object";
+  const std::string where = "edit";
   if (edit.action > ObjectEdit::Action::friction) {
     validation::refuse(where, "action", std::to_string(static_cast<int>(edit.action)),
                        "one of " + validation::join(validation::names<ObjectEdit::Action>()));

@@ -29,7 +29,7 @@ using Action = ObjectEdit::Action;
 
 /// Applies an edit to the scene. Throws InputError if it does not match the scene.
 void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bool massless, scene::Scene& scene) {
-  const std::string where = "edit_object";
+  const std::string where = "edit";
   validate(edit);
   if (edit.action == Action::add) {
     scene.bodies.push_back(scene::read_object(edit.object, edit.urdf, edit.X_WL, scene, roots, where));
@@ -528,7 +528,7 @@ void Simulation::Impl::check(const ForkChange& fork_change, const DynamicsChange
   changed.dynamics = dynamics_change.applied_to(settings.dynamics);
   for (const Hand& hand : hands) {
     changed.fork = fork_change.applied_to(hand.fork());
-    validate(changed, "new settings");
+    validate(changed, "change");
   }
 }
 
@@ -559,16 +559,16 @@ void Simulation::change(const ForkChange& fork_change, const DynamicsChange& dyn
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
   const std::string other = objects.inside_of(*objects.find(name), X_WO);
   if (other.empty()) return;
-  validation::refuse("edit_object", "pose", "one at which it overlaps " + other,
+  validation::refuse("edit", "pose", "one at which it overlaps " + other,
                      "a pose at which " + name + " overlaps no other body by more than 0.1 mm");
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
-  const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.object, "edit_object", "name")];
+  const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.object, "edit", "name")];
   const std::size_t object = *objects.find(edit.object);
   for (const Hand& hand : hands) {
     if (hand.carried() == object) {
-      validation::refuse("edit_object", "name", edit.object + ", which a tool holds or pushes",
+      validation::refuse("edit", "name", edit.object + ", which a tool holds or pushes",
                          "an object that no tool holds or pushes");
     }
   }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include "constants.h"
@@ -185,7 +183,7 @@ void StepControl::follow_error(Span& span, double t, double h, const Tried& trie
   Memory& memory = span.memory;
   dynamics::StrainState& exact = memory.exact;
   bool known = tried.solved;
-  double local = std::numeric_limits<double>::infinity();
+  std::optional<double> local;
   dynamics::RunError run{body.zero_state(), memory.spread};
   if (companion_ != nullptr) {
     known = companion_->step(body, span.handle, t, h, exact).converged;
@@ -205,7 +203,7 @@ void StepControl::follow_error(Span& span, double t, double h, const Tried& trie
       known && usable(exact) && memory.spread.allFinite() && body.shape().admissible(body.full_state(t + h, exact).q);
   if (known) known = !body.rechart(exact);
   if (!known) return forget_error(tried.state, memory);
-  span.report.bounds.add({local, 0.0, 0.0, 0});
+  span.report.bounds.add({local, std::nullopt, std::nullopt, 0});
 }
 
 void StepControl::end_bound(Span& span, double t, const dynamics::StrainState& state) const {
@@ -225,7 +223,7 @@ void StepControl::end_bound(Span& span, double t, const dynamics::StrainState& s
     forget_error(state, memory);
     memory.error_bound = memory.angle_bound = 0.0;
   }
-  span.report.bounds.add({0.0, memory.error_bound, memory.angle_bound, 0});
+  if (memory.bounded) span.report.bounds.add({std::nullopt, memory.error_bound, memory.angle_bound, 0});
 }
 
 void StepControl::fall_back(Span& span, double t, double h, dynamics::StrainState& state) const {

@@ -29,8 +29,7 @@ Wrench ForkBody::rod_load(const motion::MotionState& o) const {
 }
 
 void ForkBody::describe_bound(ToolState& state) const {
-  state.error_bound = state_.stepping.error_bound;
-  state.error_bounded = state_.stepping.bounded;
+  if (state_.stepping.bounded) state.error_bound = state_.stepping.error_bound;
 }
 
 void ForkBody::describe(bool massless, ToolState& f) const {

@@ -22,7 +22,8 @@ class Documents(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
 
     def test_have_markers(self):
-        least = {"README.md": 40, "benchmark/README.md": 10, "doc/model.md": 80, "doc/tracker.md": 30}
+        least = {"README.md": 12, "benchmark/README.md": 10}
+        least.update({"doc/accuracy.md": 30, "doc/model.md": 80, "doc/tracker.md": 30})
         for name, count in least.items():
             text = (ROOT / name).read_text(encoding="utf-8")
             marked = [kind.findall(text) for kind in (numbers.MARKER, numbers.ALL, numbers.LESS, numbers.ROWS)]

@@ -19,7 +19,7 @@ DOWN = [1.0, 0.0, 0.0, 0.0]  # the fork points down
 def holding(settings=None):
     """A simulation with the box in a hand at rest above the bench."""
     simulation = sw.Simulation(
-        sw.load_scene(BOX), sw.Settings({"contact": "none", "grasp": {"object": "box"}, **(settings or {})})
+        sw.load_scene(BOX), sw.SimulationSettings({"contact": "none", "grasp": {"object": "box"}, **(settings or {})})
     )
     for t in [0.0, 10.0]:
         simulation.push_stylus(t, sw.pose([0.0, 0.0, 0.23], DOWN))
@@ -84,7 +84,7 @@ def test_states_are_arrays_of_the_documented_shapes():
 
 
 def test_a_free_body_falls_on_a_parabola():
-    simulation = sw.Simulation(sw.load_scene(BOX), sw.Settings({"contact": "none"}))
+    simulation = sw.Simulation(sw.load_scene(BOX), sw.SimulationSettings({"contact": "none"}))
     simulation.advance(0.0)
     simulation.place({"box": sw.pose([0.0, 0.0, 5.0])})
     simulation.advance(0.5)
@@ -105,6 +105,16 @@ def test_objects_are_edited():
             simulation.edit(action, name)
     simulation.edit("remove", "box")
     assert simulation.names == []
+
+
+def test_an_error_has_a_bound_only_where_one_is_asked_for_and_holds():
+    for asked in [False, True]:
+        simulation = holding({"error_bound": asked})
+        report = simulation.advance(2.0)
+        for bound in [report.error_bound, report.angle_error_bound, simulation.fork().error_bound]:
+            assert (bound is not None) == asked
+            assert bound is None or 0.0 < bound < 1e-3
+        assert report.steps_unbounded == (0 if asked else report.steps)
 
 
 def test_a_motion_is_the_file_s():
@@ -147,6 +157,11 @@ def test_changes_are_made_completely_or_not_at_all():
     before = simulation.state_hash
     with pytest.raises(sw.InputError, match="step"):
         simulation.change(stiffness=[1000.0, 400.0, 3.0], step=-1.0)
+    for wrong in [5.0, [1.0, 2.0], ["a", "b", "c"], "soft"]:
+        with pytest.raises(sw.InputError, match="stiffness: must be three numbers, of stretch, bend and torsion, got"):
+            simulation.change(stiffness=wrong)
+    with pytest.raises(sw.InputError, match=r"dofs: must be three booleans, .* got \[True, False\]"):
+        simulation.change(dofs=[True, False])
     assert simulation.state_hash == before
     simulation.change(stiffness=[1000.0, 400.0, 3.0], integrator="rosenbrock")
     assert simulation.fork().stiffness.tolist() == [1000.0, 400.0, 3.0]
@@ -176,8 +191,8 @@ def test_settings_are_those_of_a_file():
     ],
 )
 def test_bad_settings_are_refused(values, words):
-    settings = sw.Settings()
-    for call in [sw.Settings, settings.update]:
+    settings = sw.SimulationSettings()
+    for call in [sw.SimulationSettings, settings.update]:
         with pytest.raises(sw.InputError) as refused:
             call(values)
         for word in words:

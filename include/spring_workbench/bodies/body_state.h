@@ -13,13 +13,13 @@ namespace spring_workbench::bodies {
 
 /// State of one movable object, at its object frame O (centre of mass), in world axes.
 struct BodyState {
-  std::string name;
-  RigidTransform X_WO = RigidTransform::Identity();
-  Twist V_WO_W;  ///< [m/s, rad/s]
-  bool held = false;
-  bool highlighted = false;  ///< whether a press of the button would grasp it
-  bool in_contact = false;
-  bool asleep = true;
+  std::string name;                                  ///< the name of its URDF link
+  RigidTransform X_WO = RigidTransform::Identity();  ///< pose
+  Twist V_WO_W;                                      ///< [m/s, rad/s]
+  bool held = false;                                 ///< whether a hand holds it
+  bool highlighted = false;                          ///< whether a press of the button would grasp it
+  bool in_contact = false;                           ///< whether it touches another body or the bench
+  bool asleep = true;  ///< whether it is at rest, and not simulated until something moves it
 
   void exchange(math::StateArchive& state) { state(X_WO, V_WO_W, held, highlighted, in_contact, asleep); }
 };
@@ -45,7 +45,7 @@ class Changes {
 
   /// Resets the record to `objects` objects, all of which count as changed.
   void reset(std::size_t objects);
-  void note(std::size_t object);
+  void note(std::size_t object);  ///< the object has changed
   Moment now() const { return {self_, count_}; }
   /// The objects that have changed since `then`, in ascending order; all if `then` was taken from
   /// another `Changes`.

@@ -11,15 +11,15 @@ enum class ContactPhase { started, persisting, ended };
 
 /// A contact of an object, in world axes.
 struct ContactState {
-  std::string object;
-  std::string other;                 ///< another object's name, or "workbench"
-  Vector3d p_W = Vector3d::Zero();   ///< [m]
-  Vector3d n_W = Vector3d::UnitZ();  ///< unit normal, towards `object`
-  double depth = 0.0;                ///< penetration [m]
-  double impulse = 0.0;              ///< normal impulse in the last step [N·s]
-  double force = 0.0;                ///< mean normal force over that step [N]
-  double slip_speed = 0.0;           ///< [m/s]
-  ContactPhase phase = ContactPhase::started;
+  std::string object;                          ///< the object's name
+  std::string other;                           ///< another object's name, or "workbench"
+  Vector3d p_W = Vector3d::Zero();             ///< contact point [m]
+  Vector3d n_W = Vector3d::UnitZ();            ///< unit normal, towards `object`
+  double depth = 0.0;                          ///< penetration [m]
+  double impulse = 0.0;                        ///< normal impulse in the last step [N·s]
+  double force = 0.0;                          ///< mean normal force over that step [N]
+  double slip_speed = 0.0;                     ///< speed of `object` along the surface [m/s]
+  ContactPhase phase = ContactPhase::started;  ///< started, persisting or ended in the last call of `advance`
 
   void exchange(math::StateArchive& state) { state(object, other, p_W, n_W, depth, impulse, force, slip_speed, phase); }
 };

@@ -9,10 +9,10 @@ namespace spring_workbench::dynamics {
 enum class IntegratorKind { exponential, rosenbrock, implicit_euler, paper, semi_implicit_euler, rk4 };
 const std::vector<std::string>& names_of(IntegratorKind);
 
-/// The held object's own inertia, or the paper's I = r² m (section 3.1).
-enum class Inertia { exact, point_mass };
+enum class Inertia { exact, point_mass };  ///< the held object's own, or the paper's I = r² m (section 3.1)
 const std::vector<std::string>& names_of(Inertia);
 
+/// Integrator and steps of the held objects.
 struct DynamicsSettings {
   IntegratorKind integrator = IntegratorKind::exponential;  ///< key `integrator`
   double step = 0.02;        ///< key `step` [s], 1e-6 … 1: the largest step; a step also ends at every sample

@@ -9,13 +9,15 @@
 
 namespace spring_workbench::geometry {
 
+/// A box, centred at the origin.
 struct Box {
   Vector3d size;  ///< full edge lengths [m]
 };
+/// A sphere, centred at the origin.
 struct Sphere {
   double radius;  ///< [m]
 };
-/// Axis along z, centred at the origin.
+/// A cylinder along z, centred at the origin.
 struct Cylinder {
   double radius;  ///< [m]
   double length;  ///< [m]
@@ -37,8 +39,8 @@ using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;
 
 /// A part of a body, placed in the body's object frame O (axes of the URDF link, origin at the centre of mass).
 struct Shape {
-  Geometry geometry;
-  RigidTransform X_OS = RigidTransform::Identity();
+  Geometry geometry;                                            ///< box, sphere, cylinder or mesh
+  RigidTransform X_OS = RigidTransform::Identity();             ///< pose of the shape's frame S in O
   Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1.0);  ///< r, g, b, alpha in 0 … 1
   bool color_given =
       false;  ///< whether the scene sets `color`; otherwise the colours and textures of a mesh file take precedence

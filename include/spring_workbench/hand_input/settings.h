@@ -41,7 +41,7 @@ struct InputDescription {
 /// Returns the descriptions of all keys, which a test compares with `doc/reference.md`.
 std::vector<InputDescription> input_descriptions();
 
-/// Takes the entries `input: {…}` (nested) and `input.…` (dotted) out of `map` and sets the fields that they name, all
+/// Takes the entries "input: {…}" (nested) and "input.…" (dotted) out of `map` and sets the fields that they name, all
 /// or none. Throws InputError with `where`, key, value and rule for an unknown key, a wrong type or a value out of
 /// range.
 void take_input_settings(YAML::Node& map, const std::string& where, InputSettings& settings);

@@ -16,14 +16,14 @@ using RigidTransform = Eigen::Isometry3d;
 
 /// Velocity of a frame: `linear` [m/s] of its origin and `angular` [rad/s]; the name says in which axes, `V_WO_W`.
 struct Twist {
-  Vector3d linear = Vector3d::Zero();
-  Vector3d angular = Vector3d::Zero();
+  Vector3d linear = Vector3d::Zero();   ///< velocity of the origin [m/s]
+  Vector3d angular = Vector3d::Zero();  ///< angular velocity [rad/s]
 };
 
 /// Force [N] and moment [N·m] about a frame's origin; the name says in which axes.
 struct Wrench {
-  Vector3d force = Vector3d::Zero();
-  Vector3d moment = Vector3d::Zero();
+  Vector3d force = Vector3d::Zero();   ///< [N]
+  Vector3d moment = Vector3d::Zero();  ///< about the origin [N·m]
 };
 
 /// The pose with rotation `q` (need not be of unit length; must not be zero) and origin `p` [m].

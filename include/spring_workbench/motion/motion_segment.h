@@ -10,9 +10,9 @@ namespace spring_workbench::motion {
 
 /// A frame's motion at one moment, in world axes: pose, velocity [m/s, rad/s] and acceleration [m/s², rad/s²].
 struct MotionState {
-  RigidTransform X = RigidTransform::Identity();
-  Twist velocity;
-  Twist acceleration;
+  RigidTransform X = RigidTransform::Identity();  ///< pose
+  Twist velocity;                                 ///< [m/s, rad/s]
+  Twist acceleration;                             ///< [m/s², rad/s²]
 };
 
 /// Motion of a frame B at one moment, with angular velocity and acceleration in its own axes.
@@ -47,8 +47,8 @@ class FrameMotion {
 
 /// One sample of a tracked frame: time [s] and pose.
 struct PoseSample {
-  double t = 0.0;
-  RigidTransform X = RigidTransform::Identity();
+  double t = 0.0;                                 ///< [s]
+  RigidTransform X = RigidTransform::Identity();  ///< pose of the frame
 
   void exchange(math::StateArchive& state) { state(t, X); }
 };

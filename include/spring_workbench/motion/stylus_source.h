@@ -12,7 +12,7 @@ namespace spring_workbench::motion {
 /// A sample of a tracked stylus: `t` [s] since the source's first sample, the pose X of the stylus in the tracker's
 /// base frame, whether the grasp button is down, and which stylus it is.
 struct StylusSample : PoseSample {
-  bool button = false;
+  bool button = false;   ///< whether the grasp button is down
   std::size_t hand = 0;  ///< number of the stylus, from 0
 };
 
@@ -23,9 +23,9 @@ enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
 struct ExternalWrench {
   /// Axes of the wrench: fixed in the world, or those of the tip, which turn with it.
   enum class Axes { world, tip };
-  double t = 0.0;  ///< time of the measurement [s]
-  Wrench wrench;   ///< about the origin of E, each component within ±1e5 [N, N·m]
-  Axes axes = Axes::world;
+  double t = 0.0;           ///< time of the measurement [s]
+  Wrench wrench;            ///< about the origin of E, each component within ±1e5 [N, N·m]
+  Axes axes = Axes::world;  ///< axes in which `wrench` is given
 
   void exchange(math::StateArchive& state) { state(t, wrench, axes); }
 };

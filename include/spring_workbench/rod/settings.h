@@ -10,9 +10,9 @@ namespace spring_workbench::rod {
 
 /// One number per degree of freedom (DOF) of the fork.
 struct PerDof {
-  double stretch = 0.0;
-  double bend = 0.0;
-  double torsion = 0.0;
+  double stretch = 0.0;  ///< of the extension along the rod
+  double bend = 0.0;     ///< of the deflection of the tip across the rod
+  double torsion = 0.0;  ///< of the twist about the rod
 
   void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }
 };
@@ -23,9 +23,9 @@ inline bool operator==(const PerDof& a, const PerDof& b) {
 
 /// The DOFs that are switched on (the paper's deformation DOFs, section 4). Off means rigid.
 struct ForkDofs {
-  bool stretch = true;
-  bool bend = true;
-  bool torsion = true;
+  bool stretch = true;  ///< whether the rod can change its length
+  bool bend = true;     ///< whether it can bend
+  bool torsion = true;  ///< whether it can twist
 
   void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }
   bool operator==(const ForkDofs& o) const { return stretch == o.stretch && bend == o.bend && torsion == o.torsion; }
@@ -44,15 +44,15 @@ const std::vector<std::string>& names_of(DampingLaw);
 struct ForkSettings {
   ShapeKind shape = ShapeKind::linear;   ///< key `shape`
   double length = 0.2;                   ///< key `fork.length` [m], > 0: rest length L
-  PerDof stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
+  PerDof stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.…` [N/m, N/m, N·m/rad], ≥ 0
   std::optional<double>
       slope_stiffness;  ///< key `fork.stiffness.slope` [N·m/rad], > 0: for the end slope of the `bushing`,
                         ///< for a bend stiffness > 0; by default k_bend L² / 3, as for a rod
-  PerDof damping_ratio{1.0, 1.0, 1.0};  ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
-  PerDof damping_coefficient;  ///< keys `fork.damping_coefficient.*` [N·s/m, N·s/m, N·m·s/rad], ≥ 0: for the law
+  PerDof damping_ratio{1.0, 1.0, 1.0};  ///< keys `fork.damping.…`: ζ, 0 … 10; 1 is critical
+  PerDof damping_coefficient;  ///< keys "fork.damping_coefficient.…" [N·s/m, N·s/m, N·m·s/rad], ≥ 0: for the law
                                ///< `coefficients`
   DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` needs one ζ for all DOFs
-  ForkDofs dofs;                                 ///< keys `fork.dofs.*`
+  ForkDofs dofs;                                 ///< keys `fork.dofs.…`
   double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: time constant with which a DOF that is
                                   ///< switched off while strained returns to zero strain
 };

@@ -16,10 +16,11 @@ constexpr double standard_gravity = 9.81;
 
 /// Mass [kg], and inertia tensor [kg·m²] about the centre of mass in the axes of O.
 struct MassProperties {
-  double mass = 0.0;
-  Matrix3d inertia_O = Matrix3d::Zero();
+  double mass = 0.0;                      ///< [kg]
+  Matrix3d inertia_O = Matrix3d::Zero();  ///< [kg·m²]
 };
 
+/// Material of a body's surface.
 struct Material {
   double friction = 0.5;                                       ///< Coulomb coefficient, ≥ 0
   double restitution = 0.0;                                    ///< 0 … 1
@@ -32,24 +33,25 @@ inline double contact_compliance(const Material& a, const Material& b) { return 
 
 /// One rigid body of the scene: a URDF link with all links that fixed joints attach to it.
 struct Body {
-  std::string name;  ///< the URDF link's name; unique in the scene
-  bool movable = false;
+  std::string name;      ///< the URDF link's name; unique in the scene
+  bool movable = false;  ///< whether it can be held and pushed; otherwise it is fixed in world
   RigidTransform X_WO = RigidTransform::Identity();  ///< start pose of the object frame O in world
   RigidTransform X_OL = RigidTransform::Identity();  ///< the URDF link frame L in O (a translation: −centre of mass)
   MassProperties mass_properties;                    ///< zero for a body that is immovable or has no mass
-  Material material;
-  std::vector<geometry::Shape> collision;
-  std::vector<geometry::Shape> visual;  ///< the collision shapes if the URDF has no visual
+  Material material;                                 ///< of its whole surface
+  std::vector<geometry::Shape> collision;            ///< its shape for contact
+  std::vector<geometry::Shape> visual;               ///< the collision shapes if the URDF has no visual
 };
 
+/// Contact: none; `stop`: the held or falling object stops at the others; `dynamic`: it also moves them.
 enum class ContactMode { none, stop, dynamic };
 inline std::vector<std::string> names_of(ContactMode) { return {"none", "stop", "dynamic"}; }
 
 /// Target of an object in an assembly: pose of its link frame in world, with tolerances [m, rad].
 struct Target {
-  RigidTransform X_WL = RigidTransform::Identity();
-  double position_tolerance = 0.01;
-  double angle_tolerance = 0.1;
+  RigidTransform X_WL = RigidTransform::Identity();  ///< pose of its link frame in world
+  double position_tolerance = 0.01;                  ///< [m]
+  double angle_tolerance = 0.1;                      ///< [rad]
   double max_force =
       std::numeric_limits<double>::infinity();  ///< [N], > 0: the object breaks if a contact force exceeds it
   std::vector<Vector3d> p_LG;  ///< grip points of the hands that carry it, in its link frame [m]; empty: one hand, at
@@ -58,19 +60,19 @@ struct Target {
 
 /// A scene as read from a URDF and the YAML file of the same name next to it.
 struct Scene {
-  std::string name;
-  std::string path;
-  std::vector<Body> bodies;
-  double gravity = standard_gravity;  ///< [m/s²], along −z of world; ≥ 0
-  double bench_height = 0.0;          ///< z of the workbench plane in world [m]
-  Material bench_material;            ///< material of the bench, and the default for the bodies
-  ContactMode contact = ContactMode::stop;
-  std::string tool = "spring_fork";
-  double force_scale = 1.0;  ///< ratio of virtual to real force, > 0
+  std::string name;                         ///< name of the URDF file without .urdf
+  std::string path;                         ///< path of the URDF
+  std::vector<Body> bodies;                 ///< all bodies, movable and fixed
+  double gravity = standard_gravity;        ///< [m/s²], along −z of world; ≥ 0
+  double bench_height = 0.0;                ///< z of the workbench plane in world [m]
+  Material bench_material;                  ///< material of the bench, and the default for the bodies
+  ContactMode contact = ContactMode::stop;  ///< the setting `contact` overrides it
+  std::string tool = "spring_fork";         ///< tool of each hand at the start; the setting `tool` overrides it
+  double force_scale = 1.0;                 ///< ratio of virtual to real force, > 0
   std::vector<RigidTransform> X_WH_start = {
-      RigidTransform::Identity()};  ///< start pose of each hand's handle; at least one
-  std::map<std::string, Target> targets;
-  std::vector<std::string> warnings;  ///< one line for each repair made on loading, with the name of the link
+      RigidTransform::Identity()};        ///< start pose of each hand's handle; at least one
+  std::map<std::string, Target> targets;  ///< where the objects belong in an assembly, by name
+  std::vector<std::string> warnings;      ///< one line for each repair made on loading, with the name of the link
 };
 
 /// Returns the folder of a package below the colon-separated folders of ROS_PACKAGE_PATH, or an empty string. Does not

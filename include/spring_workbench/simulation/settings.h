@@ -31,9 +31,9 @@ struct SimulationSettings {
   double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3
   int clutch_button = 2;                      ///< key `clutch.button`: index in the stylus' Joy
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `inertia`
-  rod::ForkSettings fork;                     ///< keys `shape`, `fork.*`
-  tools::LimitSettings limit;                 ///< keys `limit.*`
-  tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.*`, `grasp.*`, `start.follow`, `release`
+  rod::ForkSettings fork;                     ///< keys `shape`, `fork.…`
+  tools::LimitSettings limit;                 ///< keys `limit.…`
+  tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;   ///< key `dropout_after` [s], > 0: silence after which a hand rests
   double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], > 0
   int bisection_levels = 8;     ///< key `bisection_levels`, 0 … 30 (paper, section 5); 0: time of impact instead
@@ -48,12 +48,12 @@ Twist at_hand(const Twist& V_W, const SimulationSettings& settings);
 
 /// A change of the fork while running; absent fields stay as they are.
 struct ForkChange {
-  std::optional<rod::ForkDofs> dofs;
+  std::optional<rod::ForkDofs> dofs;                        ///< the DOFs that are on
   std::optional<double> stretch_stiffness, bend_stiffness;  ///< [N/m]
   std::optional<double> torsion_stiffness;                  ///< [N·m/rad]
   std::optional<rod::PerDof> damping_ratio;                 ///< –
   std::optional<rod::PerDof> damping_coefficient;           ///< [N·s/m, N·s/m, N·m·s/rad]
-  std::optional<rod::DampingLaw> damping_law;
+  std::optional<rod::DampingLaw> damping_law;               ///< how damping values are read
 
   bool empty() const { return !dofs && !changes_springs(); }
   bool changes_springs() const;
@@ -66,9 +66,9 @@ ForkChange change_to(const rod::ForkSettings& fork);
 
 /// A change of integrator, step or tolerance; absent fields stay as they are.
 struct DynamicsChange {
-  std::optional<dynamics::IntegratorKind> integrator;
-  std::optional<double> step;       ///< [s]
-  std::optional<double> tolerance;  ///< [m]; 0: fixed steps
+  std::optional<dynamics::IntegratorKind> integrator;  ///< of all hands
+  std::optional<double> step;                          ///< [s]
+  std::optional<double> tolerance;                     ///< [m]; 0: fixed steps
 
   bool empty() const { return !integrator && !step && !tolerance; }
   dynamics::DynamicsSettings applied_to(dynamics::DynamicsSettings dynamics) const;
@@ -77,7 +77,7 @@ struct DynamicsChange {
 /// A change of one object of the scene while running.
 struct ObjectEdit {
   enum class Action { add, move, remove, mass, friction };
-  Action action = Action::move;
+  Action action = Action::move;        ///< what to do
   std::string object;                  ///< its name
   std::string urdf;                    ///< for `add`: path or package:// URI of the object's URDF
   std::optional<RigidTransform> X_WL;  ///< pose of its URDF link frame in world; required by `move`; an added
@@ -90,7 +90,7 @@ struct ObjectEdit {
 };
 inline std::vector<std::string> names_of(ObjectEdit::Action) { return {"add", "move", "remove", "mass", "friction"}; }
 
-/// Throws InputError naming `edit_object`, field, value and rule if a value is invalid.
+/// Throws InputError naming field, value and rule if a value is invalid.
 void validate(const ObjectEdit& edit);
 
 /// Description of one key.
@@ -102,7 +102,7 @@ struct SettingDescription {
   std::string default_value;
   std::string meaning;
 };
-std::vector<SettingDescription> setting_descriptions();
+std::vector<SettingDescription> setting_descriptions();  ///< of all settings, in the order of doc/reference.md
 
 /// Sets the fields given in `values` (a YAML map, nested or with dotted keys), all or none. Throws InputError naming
 /// `where`, key, value and rule for an unknown key, a wrong type or a value out of range.

@@ -53,28 +53,28 @@ std::string to_hex(std::uint64_t hash);
 
 /// Report on a call of `advance` or a sequence of calls.
 struct AdvanceReport {
-  int steps = 0;                   ///< integrator steps taken
-  double simulated_time = 0.0;     ///< [s]
-  double position_error = 0.0;     ///< largest estimate of a step's local error [m]
-  double angle_error = 0.0;        ///< largest estimate of a step's local error in angle [rad]
-  double local_error_bound = 0.0;  ///< largest bound of a step's local error in position [m]; infinity: no bound
-  double error_bound = 0.0;        ///< largest bound of the error since the grasp, in position [m]; 0: no step has one
-  double angle_error_bound = 0.0;  ///< the same in angle [rad] (both: doc/model.md, "Error bound")
+  int steps = 0;                ///< integrator steps taken
+  double simulated_time = 0.0;  ///< [s]
+  double position_error = 0.0;  ///< largest estimate of a step's local error [m]
+  double angle_error = 0.0;     ///< largest estimate of a step's local error in angle [rad]
+  // Bounds over the steps that have one (doc/model.md, "Error bound"); none without the setting `error_bound`.
+  std::optional<double> local_error_bound;  ///< largest bound of a step's local error in position [m]
+  std::optional<double> error_bound;  ///< of the error in position since the grasp or the last step without one [m]
+  std::optional<double> angle_error_bound;  ///< the same in angle [rad]
   int steps_unbounded = 0;         ///< integrations (in contact several a step) without one: all without `error_bound`
   double energy_added = 0.0;       ///< energy of the held object and the fork beyond the work of hand, gravity, damping
                                    ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
   int steps_among_movable = 0;     ///< steps near other movable objects (contact mode `dynamic`)
-  int collision_queries = 0;
+  int collision_queries = 0;       ///< queries to the collision library
   int substeps = 0;  ///< discarded attempts, each repeated with shorter steps: equation not solved, or error too large
   int stops = 0;     ///< steps that met the end of the fork's range
   int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
-  int steps_unsolved = 0;   ///< steps near other movable objects, taken although a contact missed its law by more than
-                            ///< 1 µm, was deeper than 0.1 mm, or a free body may have penetrated too far
-  double time_lost = 0.0;   ///< time during which a body did not follow its equation [s]
-  int steps_rejected = 0;   ///< steps rejected because the result was not finite or bounded
+  int steps_unsolved = 0;  ///< steps near movable objects in which a contact missed its law by 1 µm or was 0.1 mm deep
+  double time_lost = 0.0;  ///< time during which a body did not follow its equation [s]
+  int steps_rejected = 0;  ///< steps rejected because the result was not finite or bounded
   int wrench_timeouts = 0;  ///< times an external wrench went to zero because no next one came in time
   std::bitset<8> ran;       ///< the subsystems that ran, in the order of active()
 

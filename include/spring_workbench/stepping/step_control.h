@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "spring_workbench/dynamics/integrator.h"
 
@@ -9,10 +10,10 @@ namespace spring_workbench::stepping {
 
 /// Bounds of the errors at the object's centre of mass (doc/model.md, "Error bound").
 struct ErrorBounds {
-  double local = 0.0;     ///< largest bound of a step's local error in position [m]; infinite: no bound
-  double position = 0.0;  ///< largest bound of the run's error in position, since the run was last exact [m]
-  double angle = 0.0;     ///< the same for its error in orientation [rad]
-  int unbounded = 0;      ///< steps without a bound
+  std::optional<double> local;     ///< largest bound of a step's local error in position [m]; none if no step has one
+  std::optional<double> position;  ///< the same of the run's error in position, since the run was last exact [m]
+  std::optional<double> angle;     ///< the same of its error in orientation [rad]
+  int unbounded = 0;               ///< steps without a bound
 
   void add(const ErrorBounds& next) {
     local = std::max(local, next.local);

@@ -44,10 +44,11 @@ struct WorldGoal {
 enum class Release { thrown, dropped };
 inline std::vector<std::string> names_of(Release) { return {"thrown", "dropped"}; }
 
+/// How tools grasp, calibrate and release.
 struct GraspSettings {
   Calibration calibrate = Calibration::none;  ///< key `calibrate`
-  ObjectGoal object_goal;                     ///< keys `calibration.object.*`
-  WorldGoal world_goal;                       ///< keys `calibration.world.*`
+  ObjectGoal object_goal;                     ///< keys `calibration.object.…`
+  WorldGoal world_goal;                       ///< keys `calibration.world.…`
   std::string object =
       "";  ///< key `grasp.object`: object that is held from the first sample on; empty: grasp by button
   std::optional<RigidTransform>

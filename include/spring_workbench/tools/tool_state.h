@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "spring_workbench/dynamics/settings.h"
@@ -41,14 +42,14 @@ struct ToolState {
   Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< kinetic energy of the held object, in world [J]
-  double error_bound = 0.0;                                ///< bound of the run's error in position [m]
-  bool error_bounded = false;     ///< whether the setting `error_bound` is on and the bound holds now (doc/model.md,
-                                  ///< "Error bound"); not, e.g., in contact
-  double force_scale = 1.0;       ///< ratio of virtual to real force
-  double weight = 0.0;            ///< reading as a scale: upward force on the object / g [vkg]
-  double torque = 0.0;            ///< reading as a torque wrench: moment about the axis at the tip [N·m]
-  Reading weight_average;         ///< [vkg]; filled in by ReadingAverage
-  Reading torque_average;         ///< [N·m]; likewise
+  std::optional<double> error_bound;  ///< bound of the error of integration in position, since the grasp or the last
+                                      ///< step without a bound [m]; none if the setting `error_bound` is off, and,
+                                      ///< e.g., in contact (doc/model.md, "Error bound")
+  double force_scale = 1.0;           ///< ratio of virtual to real force
+  double weight = 0.0;                ///< reading as a scale: upward force on the object / g [vkg]
+  double torque = 0.0;                ///< reading as a torque wrench: moment about the axis at the tip [N·m]
+  Reading weight_average;             ///< [vkg]; filled in by ReadingAverage
+  Reading torque_average;             ///< [N·m]; likewise
   double stretching_force = 0.0;  ///< force along the tool's axis at the handle, > 0 in tension [N] (paper, section 4)
   double bending_force = 0.0;     ///< force perpendicular to that axis [N]
   double force_angle = 0.0;       ///< angle Φ between that axis and the force on the tool, 0 … π [rad]

@@ -1,5 +1,6 @@
 #include "csv_rows.h"
 
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -73,8 +74,7 @@ std::string fork_header() {
          "tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz,handle_fx,handle_fy,handle_fz,handle_mx,handle_my,handle_mz,"
          "elastic_energy,kinetic_energy,stretching_force,bending_force,force_angle,weight,weight_mean,weight_"
          "uncertainty,"
-         "torque,torque_mean,torque_uncertainty,material_stiffness,material_stiffness_uncertainty,error_bound,error_"
-         "bounded\n";
+         "torque,torque_mean,torque_uncertainty,material_stiffness,material_stiffness_uncertainty,error_bound\n";
 }
 
 std::string fork_row(double t, const tools::ToolState& fork, std::size_t hand) {
@@ -92,7 +92,7 @@ std::string fork_row(double t, const tools::ToolState& fork, std::size_t hand) {
   row.add(fork.weight).add(fork.weight_average.mean).add(fork.weight_average.uncertainty);
   row.add(fork.torque).add(fork.torque_average.mean).add(fork.torque_average.uncertainty);
   row.add(fork.material_stiffness).add(fork.material_stiffness_uncertainty);
-  row.add(fork.error_bound).add(fork.error_bounded ? 1.0 : 0.0);
+  row.add(fork.error_bound.value_or(std::numeric_limits<double>::infinity()));
   return row.end();
 }
 

@@ -120,7 +120,7 @@ RUN.fork.csv, a line per output time and hand:
   weight,weight_mean,weight_uncertainty     [vkg] the tool as a scale: now, over the last second, standard deviation
   torque,torque_mean,torque_uncertainty     [N*m] the tool as a torque wrench
   material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
-  error_bound,error_bounded                 [m] bound of the position's error; 1 if it is valid, else 0
+  error_bound                               [m] of the position; inf: none
 
 The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
 samples, samples_rejected (by input.*; reasons in rejected), dropouts (gaps over dropout_after), reacquisitions, losses

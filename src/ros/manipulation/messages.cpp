@@ -1,5 +1,7 @@
 #include "messages.h"
 
+#include <limits>
+
 #include "spring_workbench/fork_mesh/fork_model.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/ros/common/conversions.h"
@@ -143,9 +145,10 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.steps = static_cast<uint32_t>(report.steps);
   message.position_error = report.position_error;
   message.angle_error = report.angle_error;
-  message.local_error_bound = report.local_error_bound;
-  message.error_bound = report.error_bound;
-  message.angle_error_bound = report.angle_error_bound;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  message.local_error_bound = report.local_error_bound.value_or(none);
+  message.error_bound = report.error_bound.value_or(none);
+  message.angle_error_bound = report.angle_error_bound.value_or(none);
   message.steps_unbounded = static_cast<uint32_t>(report.steps_unbounded);
   message.energy_added = report.energy_added;
   message.omega_dt = report.stiffest_omega_dt;

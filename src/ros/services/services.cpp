@@ -117,7 +117,7 @@ void edit_object(live::SimulationRunner& runner, const std::vector<std::string>&
   command.kind = live::Command::Kind::edit;
   command.roots = roots;
   simulation::ObjectEdit& edit = command.edit;
-  edit.action = validation::named<Action>(request.action, "edit_object", "action");
+  edit.action = validation::named<Action>(request.action, "edit", "action");
   edit.object = request.name;
   const geometry_msgs::Quaternion& q = request.pose.orientation;
   const bool given = q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;

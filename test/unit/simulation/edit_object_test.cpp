@@ -195,29 +195,28 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
     EXPECT_EQ(told.substr(0, message.size()), message) << told;
   };
   const std::string objects = "a movable object of the scene (held, below, above)";
-  expect(removal("wall"), "edit_object: name: must be " + objects + ", got wall");
-  expect(removal("none"), "edit_object: name: must be " + objects + ", got none");
-  expect(new_mass("held", nan), "edit_object: mass: must be a number between 0 and 1e12, got nan");
-  expect(new_mass("held", -1.0), "edit_object: mass: must be a number between 0 and 1e12, got -1");
-  expect(new_friction("held", -0.1), "edit_object: friction: must be a finite number >= 0, got -0.1");
+  expect(removal("wall"), "edit: name: must be " + objects + ", got wall");
+  expect(removal("none"), "edit: name: must be " + objects + ", got none");
+  expect(new_mass("held", nan), "edit: mass: must be a number between 0 and 1e12, got nan");
+  expect(new_mass("held", -1.0), "edit: mass: must be a number between 0 and 1e12, got -1");
+  expect(new_friction("held", -0.1), "edit: friction: must be a finite number >= 0, got -0.1");
   expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))),
-         "edit_object: name: must be an object that no tool holds or pushes, got held, which a tool holds or pushes");
-  expect({Action::move, "below", "", std::nullopt}, "edit_object: pose: missing");
-  expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "edit_object: pose: must be a finite pose");
-  expect(addition("wall", std::nullopt), "edit_object: name: must be a new name");
-  expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt},
-         "edit_object: urdf: must be an existing file");
+         "edit: name: must be an object that no tool holds or pushes, got held, which a tool holds or pushes");
+  expect({Action::move, "below", "", std::nullopt}, "edit: pose: missing");
+  expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "edit: pose: must be a finite pose");
+  expect(addition("wall", std::nullopt), "edit: name: must be a new name");
+  expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt}, "edit: urdf: must be an existing file");
   expect({static_cast<Action>(77), "held", "", std::nullopt},
-         "edit_object: action: must be one of add, move, remove, mass, friction");
+         "edit: action: must be one of add, move, remove, mass, friction");
   if (GetParam() == ContactMode::none) return;
   expect(move_to("below", at(Vector3d(2.0, 0.0, 0.3))),
-         "edit_object: pose: must be a pose at which below overlaps no other body by more than 0.1 mm, got one at "
+         "edit: pose: must be a pose at which below overlaps no other body by more than 0.1 mm, got one at "
          "which it overlaps wall");
   expect(addition("brick", at(Vector3d(-1.0, 0.0, 0.049))),
-         "edit_object: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
+         "edit: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
          "which it overlaps the workbench");
   expect(addition("brick", object(s, "held").X_WO),
-         "edit_object: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
+         "edit: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
          "which it overlaps");
 }
 
