@@ -61,7 +61,7 @@ class CellRun {
     const bodies::BodyState& object = simulation_.objects()[0];
     const Twist& V = object.V_WO_W;
     outcome_.finite = object.X_WO.matrix().allFinite() && V.linear.allFinite() && V.angular.allFinite();
-    const double distance = (object.X_WO.translation() - simulation_.fork().X_WH.translation()).norm();
+    const double distance = (object.X_WO.translation() - simulation_.tool().X_WH.translation()).norm();
     // A hand that keeps turning throws an object without spring ever faster, so there is no bound.
     outcome_.bounded = outcome_.finite && (hand_goes_on_ || distance < kFarthest + t * (kFlight + kFall * t));
     return outcome_.bounded;
@@ -71,7 +71,7 @@ class CellRun {
   StabilityOutcome& outcome() { return outcome_; }
   /// State after the last advance().
   EnergyLook look() const {
-    const tools::ToolState fork = simulation_.fork();
+    const tools::ToolState fork = simulation_.tool();
     const bodies::BodyState& object = simulation_.objects()[0];
     const Vector3d p = object.X_WO.translation();
     return {

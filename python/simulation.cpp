@@ -130,8 +130,7 @@ void bind_state_access(py::class_<Simulation>& type) {
           "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
       .def_property_readonly("contacts", &Simulation::contacts,
                              "Contact points at the current time: a list of ContactState.")
-      .def("fork", &Simulation::fork, py::arg("hand") = 0,
-           "Returns the state of the tool in a hand, whether or not it is a fork.")
+      .def("tool", &Simulation::tool, py::arg("hand") = 0, "Returns the state of the tool in a hand.")
       .def("save", &Simulation::save, "Returns the whole state.")
       .def("restore", &Simulation::restore, py::arg("state"),
            "Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes "
@@ -187,7 +186,7 @@ Raises InputError, and changes nothing, if a name is not that of a movable objec
           R"(Changes one object, all or nothing; everything else continues from where it is.
 
 action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose), remove,
-mass [kg] or friction. Raises InputError if the object or a value is not allowed.)")
+mass [kg; 0: massless] or friction. Raises InputError if the object or a value is not allowed.)")
       .def("reset", &Simulation::reset,
            "Returns all objects to their initial poses; nothing is held, and all samples are forgotten.");
 }

@@ -18,7 +18,7 @@ const char* phase_of(contact::ContactPhase phase) {
   return "ended";
 }
 
-void bind_fork(py::module_& module) {
+void bind_tool(py::module_& module) {
   using tools::ToolState;
   const auto per_dof = [](const rod::PerDof& values) {
     return to_array(Vector3d(values.stretch, values.bend, values.torsion));
@@ -64,7 +64,7 @@ void bind_fork(py::module_& module) {
           "handle", [](const ToolState& s) { return to_array(s.X_WH); }, "Pose of the handle; shape (4, 4).")
       .def_property_readonly(
           "proxy_handle", [](const ToolState& s) { return to_array(s.X_WH_proxy); },
-          "Pose of the proxy handle; shape (4, 4).")
+          "Pose from which the fork acts; it lags behind `handle` if the object cannot follow; shape (4, 4).")
       .def_property_readonly(
           "tip", [](const ToolState& s) { return to_array(s.X_WE); }, "Pose of the tip; shape (4, 4).")
       .def_property_readonly(
@@ -77,7 +77,7 @@ void bind_fork(py::module_& module) {
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
       .def_readonly("error_bound", &ToolState::error_bound,
                     "Bound of the error of integration in position, since the grasp or the last step without a bound "
-                    "[m]; None if the setting `error_bound` is off, and, e.g., in contact.")
+                    "[m]; None if the setting `error_bound` is off or, e.g., in contact.")
       .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
@@ -96,7 +96,7 @@ void bind_contact(py::module_& module) {
           "normal", [](const ContactState& c) { return to_array(c.n_W); }, "Unit vector towards `object`; shape (3,).")
       .def_readonly("depth", &ContactState::depth, "Penetration along the normal [m].")
       .def_readonly("impulse", &ContactState::impulse, "Normal impulse in the last step [N s].")
-      .def_readonly("force", &ContactState::force, "Mean normal force over that step [N].")
+      .def_readonly("force", &ContactState::force, "Mean normal force in the last step [N].")
       .def_readonly("slip_speed", &ContactState::slip_speed, "Speed of the object along the surface [m/s].")
       .def_property_readonly(
           "phase", [](const ContactState& c) { return phase_of(c.phase); },
@@ -117,12 +117,13 @@ void bind_report(py::module_& module) {
       .def_readonly(
           "error_bound", &AdvanceReport::error_bound,
           "Largest bound of the error of integration in position, since the grasp or the last step without a bound "
-          "[m]; None if no step has one, as without the setting `error_bound`.")
-      .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound, "The same in angle [rad].")
+          "[m]; None if no step has one, e.g. without the setting `error_bound`.")
+      .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound,
+                    "The same bound for the orientation [rad]; see `error_bound`.")
       .def_readonly(
           "steps_unbounded", &AdvanceReport::steps_unbounded,
-          "Number of integrations without a bound: all, unless the setting `error_bound` is on; then e.g. those "
-          "in contact, where a step may take several.")
+          "Number of integrations (in contact several a step) without an error bound: all, unless the setting "
+          "`error_bound` is on.")
       .def_readonly("energy_added", &AdvanceReport::energy_added,
                     "Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
@@ -144,7 +145,7 @@ void bind_report(py::module_& module) {
 
 void bind_states(py::module_& module) {
   using simulation::SimulationState;
-  bind_fork(module);
+  bind_tool(module);
   bind_contact(module);
   bind_report(module);
   py::class_<SimulationState>(module, "SimulationState",

@@ -156,7 +156,7 @@ class Watch {
     hardest_ = std::max(hardest_, weight_ + force);
     if (!at_rest) return true;
     const double now = energy();
-    const Vector3d handle = simulation_.fork().X_WH_proxy.translation();
+    const Vector3d handle = simulation_.tool().X_WH_proxy.translation();
     // A blocked object is pulled back to the hand, which is work of the hand.
     const double work = std::isfinite(lowest_) ? hardest_ * (handle - handle_).norm() : 0.0;
     lowest_ = std::min(lowest_ + work, now);
@@ -186,7 +186,7 @@ class Watch {
   }
 
   double energy() const {
-    double sum = simulation_.fork().elastic_energy;
+    double sum = simulation_.tool().elastic_energy;
     std::size_t object = 0;
     for (const scene::Body& body : simulation_.scene().bodies) {
       if (!body.movable) continue;

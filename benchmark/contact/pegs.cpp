@@ -102,7 +102,7 @@ void run_pegs(bool quick, const TakeRow& take) {
       while (run.advance()) {
         const double t = run.time() - aside_time;
         if (t > 0.3 * push_time && t < 0.95 * push_time) {
-          forces.push_back(-run.simulation().fork().tip_wrench_W.force.z());
+          forces.push_back(-run.simulation().tool().tip_wrench_W.force.z());
         }
       }
       double mean = 0.0, ripple = 0.0;

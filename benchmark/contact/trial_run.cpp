@@ -118,7 +118,7 @@ const RigidTransform& TrialRun::pose(const std::string& body) const {
 }
 
 double TrialRun::energy() const {
-  double sum = simulation_.fork().elastic_energy;
+  double sum = simulation_.tool().elastic_energy;
   std::size_t object = 0;
   for (const scene::Body& body : trial_.scene.bodies) {
     if (!body.movable) continue;

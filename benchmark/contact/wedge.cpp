@@ -116,7 +116,7 @@ void run_wedges(bool quick, const TakeRow& take) {
     double off = 0.0;
     while (run.advance()) {
       if (run.time() < drive_time - 0.4) continue;
-      const Vector3d f = run.simulation().fork().tip_wrench_W.force;
+      const Vector3d f = run.simulation().tool().tip_wrench_W.force;
       const double down = -f.z() + wedge_mass * gravity, exact = (2.0 * H - f.x()) * steep;
       off = std::max(off, std::abs(down / exact - 1.0));
     }

@@ -80,7 +80,8 @@ ReportOptions parse_report_options(int argc, char** argv) {
   }
   check_recording(options);
   if (options.shard && has_out)
-    validation::refuse(kWhere, "--shard, --out", "both", "one of the two, since a shard goes to the standard output");
+    validation::refuse(kWhere, "--shard, --out", "both",
+                       "given one without the other, since a shard goes to the standard output");
   if (!options.queue.empty() && !options.shard)
     validation::refuse(kWhere, "--queue", options.queue, "given together with --shard");
   if (!options.parts.empty() && (options.shard || options.quick)) {

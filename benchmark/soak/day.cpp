@@ -272,7 +272,7 @@ class Day {
     const bool was = std::exchange(hand.pressed, record.pressed);
     if (was != record.pressed) {
       events.emplace_back(
-          live::StylusButton{pose.sample.t, record.pressed ? motion::Press::grasp : motion::Press::release});
+          live::StylusButton{pose.sample.t, record.pressed ? motion::ButtonEdge::grasp : motion::ButtonEdge::release});
     }
     events.emplace_back(pose);
   }

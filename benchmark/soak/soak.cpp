@@ -99,7 +99,7 @@ class Soak {
     result_.steps += report.steps;
     result_.simulated_time += report.simulated_time;
     result_.refused += report.steps_rejected;
-    const tools::ToolState tool = simulation_.fork();
+    const tools::ToolState tool = simulation_.tool();
     for (const bodies::BodyState& object : simulation_.objects()) {
       result_.finite = result_.finite && object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() &&
                        object.V_WO_W.angular.allFinite();

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     for (int i = 0; i <= 15; ++i) {
       simulation.advance(0.2 * i);
       const bodies::BodyState& box = simulation.objects().front();
-      const tools::ToolState fork = simulation.fork();
+      const tools::ToolState fork = simulation.tool();
       std::printf("%8.1f  %8.4f  %7.4f  %12.3f  %11.4f\n", simulation.time(), fork.X_WS.translation().z(),
                   box.X_WO.translation().z(), 1e3 * fork.stretch, fork.weight);
     }

@@ -41,7 +41,7 @@ def draw_swing(scene, path):
     hand, box, bend = [], [], []
     for t in times:
         simulation.advance(t)
-        fork = simulation.fork()
+        fork = simulation.tool()
         hand.append(fork.stylus[0, 3])
         box.append(simulation.poses[0, 0, 3])
         bend.append(np.hypot(*fork.bend))

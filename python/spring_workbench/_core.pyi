@@ -130,7 +130,7 @@ class ToolState:
         """Pose of the handle; shape (4, 4)."""
     @property
     def proxy_handle(self) -> _Floats:
-        """Pose of the proxy handle; shape (4, 4)."""
+        """Pose from which the fork acts; it lags behind `handle` if the object cannot follow; shape (4, 4)."""
     @property
     def tip(self) -> _Floats:
         """Pose of the tip; shape (4, 4)."""
@@ -149,7 +149,7 @@ class ToolState:
     @property
     def error_bound(self) -> Optional[float]:
         """Bound of the error of integration in position, since the grasp or the last step without a bound [m]; None if
-        the setting `error_bound` is off, and, e.g., in contact."""
+        the setting `error_bound` is off or, e.g., in contact."""
     @property
     def weight(self) -> float:
         """Upward force on the object divided by g [vkg]."""
@@ -182,7 +182,7 @@ class ContactState:
         """Normal impulse in the last step [N s]."""
     @property
     def force(self) -> float:
-        """Mean normal force over that step [N]."""
+        """Mean normal force in the last step [N]."""
     @property
     def slip_speed(self) -> float:
         """Speed of the object along the surface [m/s]."""
@@ -211,14 +211,14 @@ class AdvanceReport:
     @property
     def error_bound(self) -> Optional[float]:
         """Largest bound of the error of integration in position, since the grasp or the last step without a bound [m];
-        None if no step has one, as without the setting `error_bound`."""
+        None if no step has one, e.g. without the setting `error_bound`."""
     @property
     def angle_error_bound(self) -> Optional[float]:
-        """The same in angle [rad]."""
+        """The same bound for the orientation [rad]; see `error_bound`."""
     @property
     def steps_unbounded(self) -> int:
-        """Number of integrations without a bound: all, unless the setting `error_bound` is on; then e.g. those in
-        contact, where a step may take several."""
+        """Number of integrations (in contact several a step) without an error bound: all, unless the setting
+        `error_bound` is on."""
     @property
     def energy_added(self) -> float:
         """Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J]."""
@@ -304,8 +304,8 @@ class Simulation:
     @property
     def contacts(self) -> List[ContactState]:
         """Contact points at the current time: a list of ContactState."""
-    def fork(self, hand: int = 0) -> ToolState:
-        """Returns the state of the tool in a hand, whether or not it is a fork."""
+    def tool(self, hand: int = 0) -> ToolState:
+        """Returns the state of the tool in a hand."""
     def save(self) -> SimulationState:
         """Returns the whole state."""
     def restore(self, state: SimulationState) -> None:
@@ -353,7 +353,7 @@ class Simulation:
         """Changes one object, all or nothing; everything else continues from where it is.
 
         action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose),
-        remove, mass [kg] or friction. Raises InputError if the object or a value is not allowed."""
+        remove, mass [kg; 0: massless] or friction. Raises InputError if the object or a value is not allowed."""
 
     def reset(self) -> None:
         """Returns all objects to their initial poses; nothing is held, and all samples are forgotten."""

@@ -72,7 +72,7 @@ void TaskMonitor::judge(const std::vector<bodies::BodyState>& objects) {
 void TaskMonitor::note_holds(const simulation::Simulation& simulation) {
   std::set<std::string> held;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    const std::string name = simulation.fork(i).held_object;
+    const std::string name = simulation.tool(i).held_object;
     const std::string before = std::exchange(hands_[i].held, name);
     if (name.empty()) continue;
     held.insert(name);
@@ -104,7 +104,7 @@ void TaskMonitor::note_drops(const std::vector<bodies::BodyState>& objects) {
 
 void TaskMonitor::add_path_lengths(const simulation::Simulation& simulation) {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    const tools::ToolState tool = simulation.fork(i);
+    const tools::ToolState tool = simulation.tool(i);
     if (!tool.present) continue;
     const Vector3d p = tool.X_WS.translation();
     score_.hand_path += (p - hands_[i].p.value_or(p)).norm();

@@ -12,7 +12,7 @@ OperatorView operator_view(const simulation::Simulation& simulation) {
   OperatorView view;
   view.objects = simulation.objects();
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
-    const tools::ToolState tool = simulation.fork(hand);
+    const tools::ToolState tool = simulation.tool(hand);
     view.tools.push_back({RigidTransform::Identity(), tools::turns(tool.tool), tool.held_object});
     view.tools.back().X_HE.translation().z() = tool.length;
   }

@@ -17,20 +17,20 @@ namespace {
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 using Kind = Accepted::Kind;
-using motion::Press;
-constexpr std::pair<Press, Kind> of_buttons[] = {{Press::grasp, Kind::button_down},
-                                                 {Press::release, Kind::button_up},
-                                                 {Press::next_tool, Kind::next_tool},
-                                                 {Press::clutch_on, Kind::clutch_on},
-                                                 {Press::clutch_off, Kind::clutch_off}};
+using motion::ButtonEdge;
+constexpr std::pair<ButtonEdge, Kind> of_buttons[] = {{ButtonEdge::grasp, Kind::button_down},
+                                                      {ButtonEdge::release, Kind::button_up},
+                                                      {ButtonEdge::next_tool, Kind::next_tool},
+                                                      {ButtonEdge::clutch_on, Kind::clutch_on},
+                                                      {ButtonEdge::clutch_off, Kind::clutch_off}};
 
 }  // namespace
 
-Kind Accepted::kind_of(Press press) {
+Kind Accepted::kind_of(ButtonEdge press) {
   return std::find_if(std::begin(of_buttons), std::end(of_buttons), [&](auto& b) { return b.first == press; })->second;
 }
 
-std::optional<Press> Accepted::press_of(Kind kind) {
+std::optional<ButtonEdge> Accepted::press_of(Kind kind) {
   for (const auto& [press, of_press] : of_buttons) {
     if (of_press == kind) return press;
   }
@@ -126,8 +126,8 @@ void Feed::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {
   hands_.at(hand).playout.buttons(t, arrival);
 }
 
-void Feed::push_press(double t, motion::Press press, std::size_t hand) {
-  simulation_.push_press(t, press, hand);
+void Feed::push_edge(double t, motion::ButtonEdge press, std::size_t hand) {
+  simulation_.push_edge(t, press, hand);
   note(Accepted::kind_of(press), hand, t);
 }
 

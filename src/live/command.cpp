@@ -19,7 +19,7 @@ simulation::ChangeReport release(const Command& command, simulation::Simulation&
   std::vector<std::string> names;
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
     if (command.hand.value_or(hand) != hand) continue;
-    const std::string name = simulation.fork(hand).held_object;
+    const std::string name = simulation.tool(hand).held_object;
     if (simulation.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   if (names.empty()) throw validation::InputError("release: no object is held; call it while an object is held");

@@ -53,7 +53,7 @@ void Replayer::apply(const Accepted& accepted) {
                        "at most " + std::to_string(simulation.hands()) + ", as in the preceding state");
   }
   if (const auto press = Accepted::press_of(accepted.kind)) {
-    simulation.push_press(accepted.t, *press, accepted.hand);
+    simulation.push_edge(accepted.t, *press, accepted.hand);
   } else if (accepted.kind == Accepted::Kind::pose) {
     simulation.push_stylus({accepted.t, accepted.X_WH}, accepted.hand);
   } else if (accepted.kind == Accepted::Kind::lost) {

@@ -86,7 +86,7 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
     return std::visit([&](const auto& e) { apply(input, e); }, event);
   const double newest = simulation_.newest_sample();
   if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.report_arrival(pose->arrival, input.hand);
-  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_press(newest, button->press, input.hand);
+  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_edge(newest, button->press, input.hand);
   if (const auto* wrench = std::get_if<StylusWrench>(&event)) push(input, *wrench, newest);
 }
 
@@ -150,7 +150,7 @@ void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
-  feed_.push_press(time_of(input, button.t), button.press, input.hand);
+  feed_.push_edge(time_of(input, button.t), button.press, input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {

@@ -9,7 +9,7 @@ View view_of(const simulation::Simulation& simulation, std::shared_ptr<const sce
   objects.follow(simulation);
   View view{std::move(scene),     simulation.settings(), simulation.time(), simulation.world_time(), objects, {},
             simulation.contacts()};
-  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) view.tools.push_back(simulation.fork(hand));
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) view.tools.push_back(simulation.tool(hand));
   return view;
 }
 

@@ -62,12 +62,12 @@ void Hand::apply_buttons(double now) {
     grasped_by_name_ = true;
   }
   while (const auto press = stylus_.take_press(now)) {
-    if (*press == motion::Press::next_tool) {
+    if (*press == motion::ButtonEdge::next_tool) {
       select_tool(tools::next_tool(tool_, hold_ != nullptr), now);
-    } else if (*press == motion::Press::clutch_on || *press == motion::Press::clutch_off) {
-      set_clutch(*press == motion::Press::clutch_on, now);
+    } else if (*press == motion::ButtonEdge::clutch_on || *press == motion::ButtonEdge::clutch_off) {
+      set_clutch(*press == motion::ButtonEdge::clutch_on, now);
     } else if (settings_.grasp.object.empty()) {
-      apply_grasp_button(*press == motion::Press::grasp, now);
+      apply_grasp_button(*press == motion::ButtonEdge::grasp, now);
     }
   }
 }

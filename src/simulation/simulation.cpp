@@ -444,7 +444,7 @@ bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand)
   return impl_->hand(hand).stylus().push(in_world);
 }
 
-void Simulation::push_press(double t, motion::Press press, std::size_t hand) {
+void Simulation::push_edge(double t, motion::ButtonEdge press, std::size_t hand) {
   validation::check_number("button", "t", t, validation::any_number());
   impl_->hand(hand).stylus().push(impl_->in_world(t), press);
 }
@@ -680,6 +680,6 @@ void Simulation::follow(const Simulation& other) {
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
 const bodies::Changes& Simulation::object_changes() const { return impl_->objects.changes(); }
 const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().reported(); }
-tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
+tools::ToolState Simulation::tool(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
 
 }  // namespace spring_workbench::simulation

@@ -68,7 +68,7 @@ rod::PerDof scaled(double mass, const rod::PerDof& k) { return {mass * k.stretch
 
 }  // namespace
 
-double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : scene::standard_gravity; }
+double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : scene::default_gravity; }
 
 rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dynamics::BodyInertia& body, double gravity,
                                  const ObjectGoal& goal) {

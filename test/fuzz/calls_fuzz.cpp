@@ -125,12 +125,12 @@ void calls(std::string_view bytes) {
   settings.contact = static_cast<scene::ContactMode>(next.byte() % 3);
   simulation::Simulation simulation(scene, settings);
   run_a_hand(simulation);
-  motion::PoseSample hand{simulation.newest_sample(), simulation.fork().X_WH};
+  motion::PoseSample hand{simulation.newest_sample(), simulation.tool().X_WH};
   for (int i = 0; i < max_calls && !next.over(); ++i) {
     const RigidTransform before = simulation.objects()[0].X_WO;
-    const double energy = simulation.fork().elastic_energy;
+    const double energy = simulation.tool().elastic_energy;
     if (!accepted([&] { call(next, simulation, hand); })) {
-      require(simulation.objects()[0].X_WO.matrix() == before.matrix() && simulation.fork().elastic_energy == energy,
+      require(simulation.objects()[0].X_WO.matrix() == before.matrix() && simulation.tool().elastic_energy == energy,
               "what is refused changes nothing");
     }
     simulation.advance(std::min(simulation.newest_sample(), simulation.time() + 0.1));

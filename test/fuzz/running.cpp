@@ -27,7 +27,7 @@ void check_finite(const simulation::Simulation& simulation) {
             "an object's pose and twist are finite");
   }
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
-    const tools::ToolState fork = simulation.fork(hand);
+    const tools::ToolState fork = simulation.tool(hand);
     require(fork.X_WE.matrix().allFinite() && fork.strain.allFinite() && fork.tip_wrench_W.force.allFinite() &&
                 fork.tip_wrench_W.moment.allFinite() && std::isfinite(fork.elastic_energy),
             "a tool's state is finite");
@@ -39,7 +39,7 @@ void run_a_hand(simulation::Simulation& simulation) {
   sample.X.linear() = Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitX()).toRotationMatrix();
   for (const scene::Body& body : simulation.scene().bodies) {
     if (!body.movable) continue;
-    sample.X.translation() = body.X_WO.translation() + Vector3d(0.0, 0.0, simulation.fork().length);
+    sample.X.translation() = body.X_WO.translation() + Vector3d(0.0, 0.0, simulation.tool().length);
     break;
   }
   simulation.push_stylus(sample);

@@ -59,7 +59,7 @@ TEST(RegisteredIntegrator, StepsAsOneOfOurs) {
   own.advance(0.2);
   EXPECT_GE(Counting::steps, 400);
   rk4.advance(0.2);
-  EXPECT_EQ(validation::name_of(own.fork().integrator), "counting");
+  EXPECT_EQ(validation::name_of(own.tool().integrator), "counting");
   EXPECT_GT((rk4.objects()[0].X_WO.translation() - Vector3d(0.0125, 0.0, 0.2)).norm(), 1e-6) << "nothing moved";
   EXPECT_EQ(own.objects()[0].X_WO.matrix(), rk4.objects()[0].X_WO.matrix());
 

@@ -29,7 +29,7 @@ def holding(settings=None):
 def test_a_fork_at_rest_carries_the_weight():
     simulation = holding()
     simulation.advance(10.0)
-    fork = simulation.fork()
+    fork = simulation.tool()
     assert fork.held_object == "box"
     assert fork.weight == pytest.approx(MASS, rel=1e-4)
     assert fork.stretch == pytest.approx(MASS * GRAVITY / fork.stiffness[0], rel=1e-4)
@@ -41,7 +41,7 @@ def pressed(wrench, axes="world", scale=1.0):
     simulation = holding({"external_wrench_timeout": 10.0, "force_scale": scale})
     simulation.push_external_wrench(0.0, wrench, axes=axes)
     simulation.advance(9.5)
-    return simulation.fork()
+    return simulation.tool()
 
 
 def test_a_machine_s_force_is_carried_like_a_weight():
@@ -76,7 +76,7 @@ def test_states_are_arrays_of_the_documented_shapes():
     assert simulation.held.tolist() == [True]
     R = simulation.poses[0, :3, :3]
     np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-12)
-    fork = simulation.fork()
+    fork = simulation.tool()
     assert fork.bend.shape == (2,) and fork.tip.shape == (4, 4) and fork.handle_wrench.shape == (6,)
     poses = simulation.poses
     poses[:] = 0.0  # a copy: the simulation does not see it
@@ -111,7 +111,7 @@ def test_an_error_has_a_bound_only_where_one_is_asked_for_and_holds():
     for asked in [False, True]:
         simulation = holding({"error_bound": asked})
         report = simulation.advance(2.0)
-        for bound in [report.error_bound, report.angle_error_bound, simulation.fork().error_bound]:
+        for bound in [report.error_bound, report.angle_error_bound, simulation.tool().error_bound]:
             assert (bound is not None) == asked
             assert bound is None or 0.0 < bound < 1e-3
         assert report.steps_unbounded == (0 if asked else report.steps)
@@ -164,17 +164,17 @@ def test_changes_are_made_completely_or_not_at_all():
         simulation.change(dofs=[True, False])
     assert simulation.state_hash == before
     simulation.change(stiffness=[1000.0, 400.0, 3.0], integrator="rosenbrock")
-    assert simulation.fork().stiffness.tolist() == [1000.0, 400.0, 3.0]
-    assert simulation.fork().integrator == "rosenbrock"
+    assert simulation.tool().stiffness.tolist() == [1000.0, 400.0, 3.0]
+    assert simulation.tool().integrator == "rosenbrock"
     simulation.advance(10.0)
-    assert simulation.fork().stretch == pytest.approx(MASS * GRAVITY / 1000.0, rel=1e-4)
+    assert simulation.tool().stretch == pytest.approx(MASS * GRAVITY / 1000.0, rel=1e-4)
 
 
 def test_settings_are_those_of_a_file():
     fork = {"length": 0.25, "dofs": {"bend": False}}
     simulation = holding({"fork.stiffness.stretch": np.float64(800.0), "fork": fork})
     simulation.advance(0.1)
-    fork = simulation.fork()
+    fork = simulation.tool()
     assert (fork.length, fork.stiffness[0], fork.dofs) == (0.25, 800.0, [True, False, True])
     keys = {description.key: description for description in sw.setting_descriptions()}
     assert keys["step"].unit == "s" and keys["integrator"].default in sw.integrators()
@@ -219,7 +219,7 @@ def test_hands_times_and_names_that_do_not_exist_are_refused():
     before = simulation.state_hash
     hand = "hand: must be less than 2, got 5"
     for call in [
-        simulation.fork,
+        simulation.tool,
         lambda hand: simulation.push_button(1.0, True, hand),
         lambda hand: simulation.push_stylus(20.0, np.eye(4), hand),
         lambda hand: simulation.select_tool("spring", hand),

@@ -16,7 +16,7 @@ const std::vector<std::string>& names_of(Inertia);
 struct DynamicsSettings {
   IntegratorKind integrator = IntegratorKind::exponential;  ///< key `integrator`
   double step = 0.02;        ///< key `step` [s], 1e-6 … 1: the largest step; a step also ends at every sample
-  double tolerance = 0.0;    ///< key `tolerance` [m], 0 … 0.1: for the error of the run; 0: fixed steps (StepControl)
+  double tolerance = 0.0;    ///< key `tolerance` [m], 0 … 0.1: for the error of the run; 0: fixed steps
   bool error_bound = false;  ///< key `error_bound`: whether the run's error is bounded (doc/model.md, "Error bound")
   Inertia inertia = Inertia::exact;  ///< key `inertia`
 };

@@ -28,9 +28,9 @@ struct Accepted {
     clutch_off,
     external_wrench,
   };
-  static Kind kind_of(motion::Press press);
+  static Kind kind_of(motion::ButtonEdge press);
   /// Returns the edge of a button that `kind` stands for; none if it stands for something else.
-  static std::optional<motion::Press> press_of(Kind kind);
+  static std::optional<motion::ButtonEdge> press_of(Kind kind);
 
   Kind kind = Kind::rest;
   std::size_t hand = 0;
@@ -61,9 +61,9 @@ class Feed {
   /// smoothing is off and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// Adds an edge of a button at time `t` [s]; see Simulation.
-  void push_press(double t, motion::Press press, std::size_t hand = 0);
+  void push_edge(double t, motion::ButtonEdge press, std::size_t hand = 0);
   void push_button(double t, bool pressed, std::size_t hand = 0) {
-    push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
+    push_edge(t, pressed ? motion::ButtonEdge::grasp : motion::ButtonEdge::release, hand);
   }
   /// Adds what a machine's force sensor measured; see Simulation. Time never waits for such a sample.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
@@ -80,8 +80,8 @@ class Feed {
   double committed() const;
   /// Advances the simulation to `t`. A hand that is lost before `t` releases its object at the time of the loss.
   simulation::AdvanceReport advance_to(double t);
-  /// Gives each hand of `copy`, a copy of the simulation, its predicted pose at `t` (motion::PosePredictor) if `t` is
-  /// later than its newest sample.
+  /// Gives each hand of `copy`, a copy of the simulation, its predicted pose at `t` if `t` is later than its newest
+  /// sample.
   void predict(double t, simulation::Simulation& copy) const;
   /// Returns the time since the newest sample of any hand arrived [s].
   double time_since_arrival(const LocalTime& now) const;

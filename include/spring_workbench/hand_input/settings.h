@@ -25,7 +25,7 @@ struct InputSettings {
   double min_cutoff = 0.0;          ///< `smoothing.min_cutoff` [Hz] of the jitter filter at rest; 0: off
   double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: increase of the cut-off with the speed
   double beta_angle = 1.0;          ///< `smoothing.beta_angle` [Hz per rad/s]
-  double dead_band_distance = 0.0;  ///< `dead_band.distance` [m]: a hand that moves by less rests (DeadBand); 0: off
+  double dead_band_distance = 0.0;  ///< `dead_band.distance` [m]: a hand that moves by less rests; 0: off
   double dead_band_angle = 0.0;     ///< `dead_band.angle` [rad]: the same of turning
   OnLoss on_loss = OnLoss::freeze;  ///< `on_loss`: after `loss_timeout` without samples
   double loss_timeout = 2.0;        ///< `loss_timeout` [s]

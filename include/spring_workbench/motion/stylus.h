@@ -36,7 +36,7 @@ class Stylus {
   }
 
   bool push(const PoseSample& sample) { return track_.push(sample); }
-  void push(double t, Press press) { presses_.push_back({t, press}); }
+  void push(double t, ButtonEdge press) { presses_.push_back({t, press}); }
   void push(const ExternalWrench& sample) { wrench_.push(sample); }
   const PoseTrack& track() const { return track_; }
   /// Whether its pose at time `now` [s] is known from samples.
@@ -64,9 +64,9 @@ class Stylus {
   /// The wrench at the time of the last follow_wrench(); none if it is zero.
   const std::optional<ExternalWrench>& wrench() const { return wrench_.present(); }
   /// Takes the next button edge up to `now`, if there is one.
-  std::optional<Press> take_press(double now) {
+  std::optional<ButtonEdge> take_press(double now) {
     if (presses_.empty() || presses_.front().t > now + same_time) return std::nullopt;
-    const Press press = presses_.front().press;
+    const ButtonEdge press = presses_.front().press;
     presses_.pop_front();
     return press;
   }
@@ -102,7 +102,7 @@ class Stylus {
  private:
   struct Edge {
     double t;
-    Press press;
+    ButtonEdge press;
     void exchange(math::StateArchive& state) { state(t, press); }
   };
   /// The pose of S for this pose of the hand.

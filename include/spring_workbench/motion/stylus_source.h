@@ -17,7 +17,7 @@ struct StylusSample : PoseSample {
 };
 
 /// A button edge of a stylus.
-enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
+enum class ButtonEdge { grasp, release, next_tool, clutch_on, clutch_off };
 
 /// Measurement of a machine's force sensor: a wrench on the held object at the tip E.
 struct ExternalWrench {

@@ -7,8 +7,8 @@
 
 namespace spring_workbench::motion_files {
 
-/// Opens a motion file: a script (see ScriptedSource) if the name ends in `.yaml` or `.yml`, otherwise a recording (see
-/// read_motion_file). Throws InputError as they do.
+/// Opens a motion file: a script of waypoints if the name ends in `.yaml` or `.yml`, otherwise a recording (lines of
+/// `t x y z qx qy qz qw [button]`). Throws InputError with file, line, rule and value for one that is invalid.
 std::unique_ptr<motion::StylusSource> open_motion(const std::string& path);
 
 }  // namespace spring_workbench::motion_files

@@ -12,7 +12,7 @@ namespace spring_workbench::scene {
 
 /// Gravitational acceleration on Earth [m/s²]: the default of a scene, and the factor from mass to weight in a scene
 /// without gravity. Weights scale with it. Test: Calibration.NoLoadNoGravityStaysPositive.
-constexpr double standard_gravity = 9.81;
+constexpr double default_gravity = 9.81;
 
 /// Mass [kg], and inertia tensor [kg·m²] about the centre of mass in the axes of O.
 struct MassProperties {
@@ -63,7 +63,7 @@ struct Scene {
   std::string name;                         ///< name of the URDF file without .urdf
   std::string path;                         ///< path of the URDF
   std::vector<Body> bodies;                 ///< all bodies, movable and fixed
-  double gravity = standard_gravity;        ///< [m/s²], along −z of world; ≥ 0
+  double gravity = default_gravity;         ///< [m/s²], along −z of world; ≥ 0
   double bench_height = 0.0;                ///< z of the workbench plane in world [m]
   Material bench_material;                  ///< material of the bench, and the default for the bodies
   ContactMode contact = ContactMode::stop;  ///< the setting `contact` overrides it

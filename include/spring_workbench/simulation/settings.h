@@ -102,7 +102,7 @@ struct SettingDescription {
   std::string default_value;
   std::string meaning;
 };
-std::vector<SettingDescription> setting_descriptions();  ///< of all settings, in the order of doc/reference.md
+std::vector<SettingDescription> setting_descriptions();  ///< descriptions of all settings
 
 /// Sets the fields given in `values` (a YAML map, nested or with dotted keys), all or none. Throws InputError naming
 /// `where`, key, value and rule for an unknown key, a wrong type or a value out of range.

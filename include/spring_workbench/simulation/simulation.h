@@ -61,7 +61,7 @@ struct AdvanceReport {
   std::optional<double> local_error_bound;  ///< largest bound of a step's local error in position [m]
   std::optional<double> error_bound;  ///< of the error in position since the grasp or the last step without one [m]
   std::optional<double> angle_error_bound;  ///< the same in angle [rad]
-  int steps_unbounded = 0;         ///< integrations (in contact several a step) without one: all without `error_bound`
+  int steps_unbounded = 0;                  ///< integrations (in contact several a step) without a bound
   double energy_added = 0.0;       ///< energy of the held object and the fork beyond the work of hand, gravity, damping
                                    ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
@@ -121,18 +121,18 @@ class Simulation {
   /// if its stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// Presses or releases a button at the finite time `t` [s]; it acts at the first step that begins at or after `t`.
-  void push_press(double t, motion::Press press, std::size_t hand = 0);
+  void push_edge(double t, motion::ButtonEdge press, std::size_t hand = 0);
   /// Presses or releases the grasp button.
   void push_button(double t, bool pressed, std::size_t hand = 0) {
-    push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
+    push_edge(t, pressed ? motion::ButtonEdge::grasp : motion::ButtonEdge::release, hand);
   }
   /// Presses the second button, which selects the next tool or, while something is held, the next tool that can hold
   /// it.
-  void push_next_tool(double t, std::size_t hand = 0) { push_press(t, motion::Press::next_tool, hand); }
+  void push_next_tool(double t, std::size_t hand = 0) { push_edge(t, motion::ButtonEdge::next_tool, hand); }
   /// Switches the clutch. While it is on, the tool and what it holds stay in place; when it is switched off, they
   /// follow the hand's further motion from there.
   void push_clutch(double t, bool on, std::size_t hand = 0) {
-    push_press(t, on ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
+    push_edge(t, on ? motion::ButtonEdge::clutch_on : motion::ButtonEdge::clutch_off, hand);
   }
   /// Adds a wrench on the held object that was measured by a machine's force sensor, in real units; it is multiplied by
   /// the scene's `force_scale`. It acts from its time (at once if that has passed) until the next wrench, but at most
@@ -184,7 +184,7 @@ class Simulation {
 
   const std::vector<bodies::BodyState>& objects() const;  ///< the movable objects, in the scene's order
   const bodies::Changes& object_changes() const;          ///< changes of the states in objects()
-  tools::ToolState fork(std::size_t hand = 0) const;      ///< state of the tool in a hand, whether or not it is a fork
+  tools::ToolState tool(std::size_t hand = 0) const;      ///< state of the tool in a hand
   const std::vector<contact::ContactState>& contacts()
       const;  ///< current contacts, and those that ended in the last call
 

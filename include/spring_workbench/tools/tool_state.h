@@ -27,7 +27,7 @@ struct ToolState {
   rod::ForkDofs dofs;                                ///< DOFs switched on
   double length = 0.0;                               ///< rest length [m]
   rod::PerDof stiffness;                             ///< [N/m, N/m, N·m/rad]
-  rod::PerDof damping_ratio;                         ///< –
+  rod::PerDof damping_ratio;                         ///< of each DOF
   rod::StrainVector strain;                          ///< all coordinates of the shape model; zero while nothing is held
   double stretch = 0.0;                              ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
@@ -48,12 +48,12 @@ struct ToolState {
   double force_scale = 1.0;           ///< ratio of virtual to real force
   double weight = 0.0;                ///< reading as a scale: upward force on the object / g [vkg]
   double torque = 0.0;                ///< reading as a torque wrench: moment about the axis at the tip [N·m]
-  Reading weight_average;             ///< [vkg]; filled in by ReadingAverage
+  Reading weight_average;             ///< [vkg]; left empty by `Simulation`, filled in by nodes
   Reading torque_average;             ///< [N·m]; likewise
   double stretching_force = 0.0;  ///< force along the tool's axis at the handle, > 0 in tension [N] (paper, section 4)
   double bending_force = 0.0;     ///< force perpendicular to that axis [N]
   double force_angle = 0.0;       ///< angle Φ between that axis and the force on the tool, 0 … π [rad]
-  double load = 0.0;              ///< load as a fraction of the scene's range of loads, 0 … 1 (LoadRange)
+  double load = 0.0;              ///< load as a fraction of the scene's range of loads, 0 … 1
   bool clutch = false;            ///< whether the clutch is on: the hand moves without the tool
   double probe_damping = 0.0;     ///< coefficient of the touching probe's own damper [N·s/m]
   double material_stiffness = 0.0;              ///< reading of the probe [N/m]; infinite: rigid; 0: no reading

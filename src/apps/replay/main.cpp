@@ -53,7 +53,7 @@ class ForkRows {
     std::string rows;
     averages_.resize(simulation.hands());
     for (std::size_t hand = 0; hand < averages_.size(); ++hand) {
-      tools::ToolState tool = simulation.fork(hand);
+      tools::ToolState tool = simulation.tool(hand);
       averages_[hand].take(simulation.world_time(), tool, touched_pose(simulation, tool));
       if (hand == 0 || tool.present || motions.count(hand) > 0) rows += fork_row(t, tool, hand);
     }
@@ -73,10 +73,10 @@ scene::Scene load_scene(const std::string& path) {
 void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
   for (const motion::PoseSample& sample : of_hand.samples) feed.push_stylus(sample, hand);
   for (const ButtonEvent& event : of_hand.next_tool) {
-    if (event.pressed) feed.push_press(event.t, motion::Press::next_tool, hand);
+    if (event.pressed) feed.push_edge(event.t, motion::ButtonEdge::next_tool, hand);
   }
   for (const ButtonEvent& event : of_hand.clutch) {
-    feed.push_press(event.t, event.pressed ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
+    feed.push_edge(event.t, event.pressed ? motion::ButtonEdge::clutch_on : motion::ButtonEdge::clutch_off, hand);
   }
   if (!with_grasp) return;
   for (const ButtonEvent& event : of_hand.buttons) feed.push_button(event.t, event.pressed, hand);

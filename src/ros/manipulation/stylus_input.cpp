@@ -187,14 +187,15 @@ void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::
 /// Queues button events. `stamp`: stamp of the message in local time [ns].
 void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp) {
   const double t = seconds(stamp);
-  using motion::Press;
-  const auto note = [&](std::size_t button, bool& was, Press down, std::optional<Press> up) {
+  using motion::ButtonEdge;
+  const auto note = [&](std::size_t button, bool& was, ButtonEdge down, std::optional<ButtonEdge> up) {
     const bool is = message.buttons.size() > button && message.buttons[button] != 0;
     if (std::exchange(was, is) != is && (is || up)) events_.put(live::StylusButton{t, is ? down : *up});
   };
-  note(0, pressed_, Press::grasp, Press::release);
-  note(1, next_tool_, Press::next_tool, std::nullopt);
-  note(static_cast<std::size_t>(parameters_.simulation.clutch_button), clutch_, Press::clutch_on, Press::clutch_off);
+  note(0, pressed_, ButtonEdge::grasp, ButtonEdge::release);
+  note(1, next_tool_, ButtonEdge::next_tool, std::nullopt);
+  note(static_cast<std::size_t>(parameters_.simulation.clutch_button), clutch_, ButtonEdge::clutch_on,
+       ButtonEdge::clutch_off);
   events_.put(live::ButtonsKnown{t, ros_common::local_time()});
   wake_();
 }

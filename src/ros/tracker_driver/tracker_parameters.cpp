@@ -42,7 +42,7 @@ std::vector<int> read_head_stations(const YAML::Node& value, const std::string& 
     if (station == 1 || std::count(stations.begin(), stations.end(), station) == 0 ||
         std::count(heads.begin(), heads.end(), station) > 0) {
       validation::refuse(where, "head_stations", std::to_string(station),
-                         "stations other than 1 (the stylus), without duplicates");
+                         "in stations, other than 1 (the stylus), and without duplicates");
     }
     heads.push_back(station);
   }
@@ -73,18 +73,18 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   const auto number = [&](const char* key, const validation::NumberRule& rule, double& value) {
     if (parameters[key]) value = config::read_number(parameters[key], where, key, rule);
   };
-  const auto text = [&](const char* key, std::string& value) {
+  const auto text = [&](const char* key, const char* what, std::string& value) {
     if (parameters[key]) value = config::read_string(parameters[key], where, key);
-    if (value.empty()) validation::refuse(where, key, "", "a non-empty string");
+    if (value.empty()) validation::refuse(where, key, "", what);
   };
-  if (is_motion) text("file", result.file);
+  if (is_motion) text("file", "a motion file", result.file);
   if (result.source == "operator") {
-    text("scene", result.scene);
+    text("scene", "a scene", result.scene);
     if (parameters["seed"]) result.seed = config::read_integer(parameters["seed"], where, "seed", 0, 1000000000);
   }
-  text("workbench_frame", result.workbench_frame);
-  text("stylus_frame", result.stylus_frame);
-  text("head_frame", result.head_frame);
+  text("workbench_frame", "a frame name", result.workbench_frame);
+  text("stylus_frame", "a frame name", result.stylus_frame);
+  text("head_frame", "a frame name", result.head_frame);
   number("rate", validation::not_negative(), result.rate);
   number("speed", validation::between(0.01, 100.0), result.speed);
   number("pause", validation::not_negative(), result.pause);

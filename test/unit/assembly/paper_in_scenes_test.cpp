@@ -125,7 +125,7 @@ Counts run_open(const scene::Scene& scene, const Case& c, std::mt19937& random) 
   const simulation::AdvanceReport report = simulation.advance(duration);
   EXPECT_TRUE(object(simulation, body.name).X_WO.matrix().allFinite());
   EXPECT_LT(object(simulation, body.name).X_WO.translation().norm(), 10.0);
-  EXPECT_EQ(simulation.fork().held_object, body.name);
+  EXPECT_EQ(simulation.tool().held_object, body.name);
   return {report.steps, report.steps_rejected, report.steps_fallback};
 }
 

@@ -111,7 +111,7 @@ TEST(Feed, RawSamplesInATrackersFrameAreThePosesInWorld) {
   }
   poses.advance_to(3.0);
   raw.advance_to(3.0);
-  EXPECT_LT((a.fork().X_WE.matrix() - b.fork().X_WE.matrix()).norm(), 1e-9);
+  EXPECT_LT((a.tool().X_WE.matrix() - b.tool().X_WE.matrix()).norm(), 1e-9);
 }
 
 TEST(Feed, LostHandsReleaseEachAtItsTime) {
@@ -250,7 +250,7 @@ TEST(Feed, NothingThatIsNotFiniteReachesTheSimulationAndTheGateCountsAsAlone) {
         ASSERT_TRUE(object.X_WO.matrix().allFinite());
         ASSERT_TRUE(object.V_WO_W.linear.allFinite() && object.V_WO_W.angular.allFinite());
       }
-      ASSERT_TRUE(simulation.fork().X_WE.matrix().allFinite());
+      ASSERT_TRUE(simulation.tool().X_WE.matrix().allFinite());
     }
     const GateCounts &in_feed = feed.gate_counts(0), &alone = gate.counts();
     EXPECT_EQ(in_feed.accepted, alone.accepted);

@@ -88,7 +88,7 @@ class Session {
     return runner_.locked([](const auto& s) { return s.objects()[0].held; });
   }
   Vector3d hand() const {
-    return runner_.locked([](const auto& s) { return s.fork().X_WH.translation(); });
+    return runner_.locked([](const auto& s) { return s.tool().X_WH.translation(); });
   }
   double time_skipped = 0.0, stepped = 0.0;
   Vector3d true_hand() const {
@@ -124,10 +124,10 @@ class Session {
             pose.arrival = arrival;
             pose.age = age;
             pose.X_WP = X_WP_;
-            if (!pressed_) events[0].push_back(StylusButton{pose.sample.t, motion::Press::grasp});
+            if (!pressed_) events[0].push_back(StylusButton{pose.sample.t, motion::ButtonEdge::grasp});
             pressed_ = true;
             if (std::exchange(releases_, false))
-              events[0].push_back(StylusButton{pose.sample.t, motion::Press::release});
+              events[0].push_back(StylusButton{pose.sample.t, motion::ButtonEdge::release});
             events[0].push_back(pose);
           },
           [](const auto&...) {});
@@ -137,7 +137,7 @@ class Session {
     CycleReport report = runner_.cycle(events, arrival);
     time_skipped += report.time_skipped;
     while (report.more) report = runner_.cycle({}, arrival);
-    const double force = runner_.locked([](const auto& s) { return s.fork().handle_wrench_H.force.norm(); });
+    const double force = runner_.locked([](const auto& s) { return s.tool().handle_wrench_H.force.norm(); });
     strongest_ = std::max(strongest_, force);
     runner_.show(0.0, arrival, always);
   }

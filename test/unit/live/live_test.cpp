@@ -64,7 +64,7 @@ struct Bench {
     const double t = interval * k;
     if (k == 0) events[0].push_back(NewEpoch{});
     if (k == 0 && second) events[1].push_back(NewEpoch{});
-    if (k == 1) events[0].push_back(StylusButton{t, motion::Press::grasp});
+    if (k == 1) events[0].push_back(StylusButton{t, motion::ButtonEdge::grasp});
     events[0].push_back(pose_at(t, hand_at(t)));
     if (second) events[1].push_back(pose_at(t, right));
     return events;
@@ -100,7 +100,8 @@ TEST(LookAhead, WhatIsShownDoesNotDependOnHowOftenItIsAskedFor) {
     if (k == 0) events[0].push_back(NewEpoch{});
     events[0].push_back(pose_at(t, left + 0.01 * Vector3d(std::sin(9.0 * t), std::sin(5.0 * t), std::sin(7.0 * t))));
     if (one_of(3) == 0) events[0].push_back(ButtonsKnown{t, {t, t}});
-    if (one_of(8) == 0) events[0].push_back(StylusButton{t - 0.3 * interval, static_cast<motion::Press>(one_of(3))});
+    if (one_of(8) == 0)
+      events[0].push_back(StylusButton{t - 0.3 * interval, static_cast<motion::ButtonEdge>(one_of(3))});
     if (one_of(5) == 0) {
       StylusWrench wrench;
       wrench.stamp = std::llround(1e9 * (t - 0.6 * interval));
@@ -187,7 +188,7 @@ TEST(LookAhead, StationsInTurnDelayTheDisplayByNothingAndTheCommittedByOneTurn) 
       HandEvents events;
       if (station < static_cast<std::size_t>(hands)) {
         if (cycle < stations) events[station].push_back(NewEpoch{});
-        if (cycle == stations) events[0].push_back(StylusButton{t, motion::Press::grasp});
+        if (cycle == stations) events[0].push_back(StylusButton{t, motion::ButtonEdge::grasp});
         events[station].push_back(pose_at(t, station == 0 ? hand_at(t) : right));
       }
       bench.commit(events, t);
@@ -342,7 +343,7 @@ std::vector<Entry> random_journal(unsigned seed, std::uint64_t& hash) {
     HandEvents events = bench.sample(k, k < 100 || k > 180);
     if (bench.runner.hands() > 2) {
       if (k == 60) events[2].push_back(NewEpoch{});
-      if (k == 70) events[2].push_back(StylusButton{interval * k, motion::Press::grasp});
+      if (k == 70) events[2].push_back(StylusButton{interval * k, motion::ButtonEdge::grasp});
       if (k >= 60) events[2].push_back(pose_at(interval * k, right));
     }
     if (k % 60 > 30) events[0].push_back(wrench_at(interval * (k - 0.01 * static_cast<double>(random() % 400))));

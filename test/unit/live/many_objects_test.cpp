@@ -47,7 +47,7 @@ double cost_of(int side, scene::ContactMode mode) {
     pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
     pose.arrival = {t, t};
     events[0].emplace_back(pose);
-    if (k == 20) events[0].emplace_back(StylusButton{t, motion::Press::grasp});
+    if (k == 20) events[0].emplace_back(StylusButton{t, motion::ButtonEdge::grasp});
     const double begin = processor_time();
     while (runner.cycle(events, {t, t}).more) events.clear();
     const auto shown = runner.show(0.02, {t, t}, always);

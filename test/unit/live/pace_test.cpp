@@ -122,7 +122,7 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
         pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
         pose.arrival = {now(), now()};
         events[0].emplace_back(pose);
-        if (sent == 1) events[0].emplace_back(StylusButton{t, motion::Press::grasp});
+        if (sent == 1) events[0].emplace_back(StylusButton{t, motion::ButtonEdge::grasp});
       }
       const CycleReport report = runner.cycle(events, {now(), now()});
       runner.show(0.0, {now(), now()}, always);
@@ -190,7 +190,7 @@ TEST(Pace, ASilenceThatCannotBeSimulatedInTimeKeepsNobodyWaiting) {
     pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
     pose.arrival = {t, t};
     events[0].emplace_back(pose);
-    if (k == 1) events[0].emplace_back(StylusButton{t, motion::Press::grasp});
+    if (k == 1) events[0].emplace_back(StylusButton{t, motion::ButtonEdge::grasp});
     while (cycle(events, t).more) events.clear();
   }
   EXPECT_TRUE(runner.locked([](const auto& s) { return s.objects()[0].held; }));

@@ -22,8 +22,8 @@ HandEvents hand(int k) {
   HandEvents events;
   const double t = interval * k;
   if (k == 0) events[0].push_back(NewEpoch{});
-  if (k == 1) events[0].push_back(StylusButton{t, motion::Press::grasp});
-  if (k == 250) events[0].push_back(StylusButton{t, motion::Press::release});
+  if (k == 1) events[0].push_back(StylusButton{t, motion::ButtonEdge::grasp});
+  if (k == 250) events[0].push_back(StylusButton{t, motion::ButtonEdge::release});
   const Vector3d p(0.06 * std::sin(3.0 * t), 0.01 * std::sin(2.0 * t), 0.22 + 0.01 * std::sin(5.0 * t));
   StylusPose pose;
   pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
@@ -85,7 +85,7 @@ TEST(Snapshot, ReadsAsTheSimulationOfItsMoment) {
       runner.show(0.02, {t, t}, always);
       taken.push_back(*runner.committed(always));
       runner.locked([&](const simulation::Simulation& simulation) {
-        said.push_back(readings(simulation.time(), simulation.scene(), simulation.objects(), simulation.fork(),
+        said.push_back(readings(simulation.time(), simulation.scene(), simulation.objects(), simulation.tool(),
                                 simulation.contacts()));
         contacts += simulation.contacts().size();
       });

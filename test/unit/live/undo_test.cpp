@@ -36,8 +36,8 @@ struct Bench {
       const double t = 0.01 * k;
       HandEvents events;
       if (k == 0) events[0].push_back(NewEpoch{});
-      if (k % 300 == 1) events[0].push_back(StylusButton{t, motion::Press::grasp});
-      if (k % 300 == 250) events[0].push_back(StylusButton{t, motion::Press::release});
+      if (k % 300 == 1) events[0].push_back(StylusButton{t, motion::ButtonEdge::grasp});
+      if (k % 300 == 250) events[0].push_back(StylusButton{t, motion::ButtonEdge::release});
       StylusPose pose;
       const RigidTransform X =
           pointing_down(handle + 0.1 * (1.0 - std::cos(0.02 * M_PI / 3.0 * k)) * Vector3d::UnitZ());

@@ -179,7 +179,7 @@ TEST_F(MarkersOfALift, TheObjectThatTheTipIsInIsTranslucent) {
   EXPECT_NEAR(color().a, 0.5, 1e-6);
   EXPECT_GT(color().g, own.g + 0.1f);
   go_to(4.0);
-  ASSERT_EQ(simulation_.fork().held_object, "box");
+  ASSERT_EQ(simulation_.tool().held_object, "box");
   EXPECT_NEAR(color().a, 0.5, 1e-6);
   EXPECT_EQ(color().g, own.g);
   simulation_.release();
@@ -194,7 +194,7 @@ TEST_F(MarkersOfALift, TheProbeHasAReadoutWhileItTouches) {
   go_to(0.2);
   EXPECT_EQ(find(build(), "readout", 0), nullptr);
   go_to(1.9);
-  const tools::ToolState tool = simulation_.fork();
+  const tools::ToolState tool = simulation_.tool();
   ASSERT_FALSE(tool.touched.empty());
   char force[20];
   std::snprintf(force, sizeof force, " %.2f N ", tool.tip_wrench_W.force.norm());
@@ -234,7 +234,7 @@ TEST_F(MarkersOfALift, ReadingsAreWrittenBelowTheLoad) {
 TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
   for (const double t : {0.5, 2.2, 2.6, 4.0}) {
     go_to(t);
-    const tools::ToolState tool = simulation_.fork();
+    const tools::ToolState tool = simulation_.tool();
     const Vector3d point =
         tool.X_WE *
         Vector3d(0.0, 0.0, fork_mesh::ForkAppearance().prong_length * fork_mesh::default_diameter * tool.length);

@@ -35,7 +35,7 @@ TEST_P(Breakaway, WhatIsTooHeavyIsNotLiftedAndWhatIsNotIs) {
     simulation.push_button(0.0, true);
     for (int i = 1; i <= 150; ++i) {
       simulation.advance(0.02 * i);
-      EXPECT_LE(simulation.fork().tip_wrench_W.force.norm(), share * gravity);
+      EXPECT_LE(simulation.tool().tip_wrench_W.force.norm(), share * gravity);
     }
     const bodies::BodyState& box = simulation.objects()[0];
     EXPECT_EQ(box.held, share > 1.0);
@@ -53,7 +53,7 @@ TEST_P(Breakaway, PressingBeyondTheLimitReleases) {
   simulation.push_button(0.0, true);
   for (int i = 1; i <= 50; ++i) {
     simulation.advance(0.02 * i);
-    EXPECT_LE(simulation.fork().tip_wrench_W.force.norm(), 30.0);
+    EXPECT_LE(simulation.tool().tip_wrench_W.force.norm(), 30.0);
   }
   EXPECT_FALSE(simulation.objects()[0].held);
 }
@@ -96,7 +96,7 @@ TEST(BreakawayForce, NoWrenchIsLargerInAnyMotion) {
     }
     for (int i = 1; i <= 100; ++i) {
       simulation.advance(0.01 * i);
-      const tools::ToolState fork = simulation.fork();
+      const tools::ToolState fork = simulation.tool();
       EXPECT_LE(fork.tip_wrench_W.force.norm(), force) << trial;
       EXPECT_LE(fork.tip_wrench_W.moment.norm(), moment) << trial;
     }

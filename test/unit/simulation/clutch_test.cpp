@@ -42,7 +42,7 @@ TEST(Clutch, WhatIsHeldRestsWhileTheHandGoesHalfAMetre) {
     push_move(simulation, 62.02, 64.0, away, start);
     push_move(simulation, 64.02, 70.0, start, start);
     simulation.advance(70.0);
-    EXPECT_LT((simulation.fork().X_WS.translation() - (start + start - away)).norm(), 1e-9);
+    EXPECT_LT((simulation.tool().X_WS.translation() - (start + start - away)).norm(), 1e-9);
     if (tool == tools::Tool::spring) continue;  // a pendulum without a damper across
     const Vector3d gone = pose(simulation).translation() - before.translation();
     EXPECT_LT((gone - (start - away)).norm(), 1e-6) << validation::name_of(tool);
@@ -65,11 +65,11 @@ TEST(Clutch, TheToolTurnsAsTheHandDoesInWorld) {
   simulation.push_clutch(1.0, false);
   turned(1.02, tilted, {0.3, -0.2, 0.5});
   simulation.advance(1.02);
-  EXPECT_LT((simulation.fork().X_WS.linear() - down.toRotationMatrix()).norm(), 1e-9);
+  EXPECT_LT((simulation.tool().X_WS.linear() - down.toRotationMatrix()).norm(), 1e-9);
   simulation.advance(2.02);
   const Vector3d by(0.3, -0.2, 0.5);
   const Matrix3d expected = Eigen::AngleAxisd(by.norm(), by.normalized()) * down.toRotationMatrix();
-  EXPECT_LT((simulation.fork().X_WS.linear() - expected).norm(), 1e-9);
+  EXPECT_LT((simulation.tool().X_WS.linear() - expected).norm(), 1e-9);
 }
 
 TEST(Clutch, OnAndOffAtFullSpeedNothingJumps) {
@@ -206,11 +206,11 @@ TEST(HandTimeScale, WithTheScalesOfLengthAndForceALargeWorldIsLikeASmallOne) {
     const Simulation large = run(scale);
     EXPECT_LT((pose(large).translation() / scale - pose(small).translation()).norm(), 1e-8) << scale;
     EXPECT_LT((pose(large).linear() - pose(small).linear()).norm(), 1e-7) << scale;
-    const Twist V = at_hand(large.fork().V_WE_W, large.settings()), V_small = small.fork().V_WE_W;
+    const Twist V = at_hand(large.tool().V_WE_W, large.settings()), V_small = small.tool().V_WE_W;
     EXPECT_LT((V.linear - V_small.linear).norm(), 1e-6) << scale;
     EXPECT_LT((V.angular - V_small.angular).norm(), 1e-5) << scale;
-    const Vector3d felt = large.fork().handle_wrench_H.force / large.fork().force_scale;
-    EXPECT_LT((felt - small.fork().handle_wrench_H.force).norm(), 1e-5) << scale;
+    const Vector3d felt = large.tool().handle_wrench_H.force / large.tool().force_scale;
+    EXPECT_LT((felt - small.tool().handle_wrench_H.force).norm(), 1e-5) << scale;
   }
 }
 

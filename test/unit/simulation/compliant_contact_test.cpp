@@ -130,7 +130,7 @@ TEST_P(Compliant, EveryToolPressesInSeriesWithTheMaterials) {
       AdvanceReport report;
       for (double t = 0.02; t < 1.99; t += 0.02) report.add(s.advance(t));
       EXPECT_EQ(report.steps_blocked, 0) << validation::name_of(tool) << " " << k;
-      ASSERT_EQ(s.fork().held_object, "held") << validation::name_of(tool);
+      ASSERT_EQ(s.tool().held_object, "held") << validation::name_of(tool);
       const Pressure at = pressure(s, "held");
       const double depth = 0.17 - s.objects()[0].X_WO.translation().z();
       EXPECT_NEAR(depth, compliance * at.force, 2e-3 * depth + 2e-6) << validation::name_of(tool) << " " << k;
@@ -267,7 +267,7 @@ TEST_P(Compliant, AProbePressesAnObjectThatYieldsAtEachOfItsContactsOnce) {
   s.advance(2.9);
   const double foot = 1.0 / own + 1.0 / bench, at_tip = 1.0 / own + 1.0 / probe;
   const double force = (0.1 - mass * g * foot - tip) / (at_tip + foot);
-  EXPECT_NEAR(s.fork().tip_wrench_W.force.z(), -force, 5e-3 * force);
+  EXPECT_NEAR(s.tool().tip_wrench_W.force.z(), -force, 5e-3 * force);
   EXPECT_NEAR(0.05 - s.objects()[0].X_WO.translation().z(), (mass * g + force) * foot, 1e-2 * force * foot);
 }
 

@@ -124,7 +124,7 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
       EXPECT_LE(deepest, 1e-5) << factor << " " << mu;
       const double pressed = 5000.0 * factor * 0.1 + 5.0 * g;
       const Vector3d p = s.objects()[0].X_WO.translation();
-      const double lag = s.fork().X_WH.translation().x() - p.x();
+      const double lag = s.tool().X_WH.translation().x() - p.x();
       // Friction acts below the tip: its moment would bend the slope spring, but the flush face prevents it.
       EXPECT_NEAR(lag, mu * pressed / (5000.0 * factor), 1e-3 * std::max(mu, 0.1) * 0.1) << factor << " " << mu;
       EXPECT_NEAR(p.z(), floor + 0.025, 1e-5) << factor << " " << mu;

@@ -24,7 +24,7 @@ struct Extreme {
 };
 
 double energy(const scene::Scene& scene, const Simulation& s) {
-  double sum = s.fork().elastic_energy;
+  double sum = s.tool().elastic_energy;
   for (const scene::Body& body : scene.bodies) {
     if (!body.movable) continue;
     const bodies::BodyState& state = object(s, body.name);

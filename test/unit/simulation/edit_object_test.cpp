@@ -85,7 +85,7 @@ TEST_P(Edits, EditsOfOtherObjectsDoNotAffectTheHeldOne) {
       untouched.advance(t);
       const bodies::BodyState a = object(s, "held"), b = object(untouched, "held");
       EXPECT_LE((a.X_WO.matrix() - b.X_WO.matrix()).norm(), asleep_later) << edit.object;
-      EXPECT_LE((s.fork().strain - untouched.fork().strain).norm(), 10.0 * asleep_later) << edit.object;
+      EXPECT_LE((s.tool().strain - untouched.tool().strain).norm(), 10.0 * asleep_later) << edit.object;
     }
   };
   for (const ObjectEdit& edit : quiet) expect_same(edit, 3.0, 0.0);
@@ -121,7 +121,7 @@ TEST_P(Edits, AHeldObjectWithAnotherMassHangsByItsWeightAndDoesNotJump) {
     EXPECT_NEAR(report.elastic_energy_after, report.elastic_energy_before, 1e-9 * report.elastic_energy_before);
     EXPECT_EQ(s.scene().bodies[*scene::find_body(s.scene(), "held")].mass_properties.mass, mass);
     s.advance(5.9);
-    EXPECT_NEAR(s.fork().weight, mass, 1e-3 * mass);
+    EXPECT_NEAR(s.tool().weight, mass, 1e-3 * mass);
     EXPECT_TRUE(object(s, "held").held);
   }
 }
@@ -129,7 +129,7 @@ TEST_P(Edits, AHeldObjectWithAnotherMassHangsByItsWeightAndDoesNotJump) {
 TEST_P(Edits, ARemovedObjectIsLetGoAndWhatLayOnItFalls) {
   Simulation s = lifted();
   s.edit(removal("held"));
-  EXPECT_TRUE(s.fork().held_object.empty());
+  EXPECT_TRUE(s.tool().held_object.empty());
   s.edit(removal("below"));
   s.advance(s.time() + 0.1);
   if (GetParam() == ContactMode::none) {
@@ -146,12 +146,12 @@ TEST_P(Edits, ABodyWithoutMassGetsItsShapesAndMassCanGo) {
   s.edit(new_mass("held", 0.0));
   s.advance(2.0);
   EXPECT_TRUE(object(s, "held").held);
-  EXPECT_EQ(s.fork().weight, 0.0);
+  EXPECT_EQ(s.tool().weight, 0.0);
   s.edit(new_mass("held", 1.5));
   const Matrix3d inertia = s.scene().bodies[0].mass_properties.inertia_O;
   EXPECT_LT((inertia - 1.5 / 6.0 * 0.01 * Matrix3d::Identity()).norm(), 1e-12);
   s.advance(5.9);
-  EXPECT_NEAR(s.fork().weight, 1.5, 2e-3);
+  EXPECT_NEAR(s.tool().weight, 1.5, 2e-3);
 }
 
 TEST_P(Edits, AStateOfAnEditedSceneHasTheSameFutureInANewSimulation) {

@@ -48,7 +48,7 @@ TEST(ExternalWrench, DeflectsTheForkByItselfOverTheStiffness) {
       measure(simulation, 1.0, 9.0, {{0.5, -0.25, -3.0}, {0.0, 0.0, 0.01}});
       simulation.advance(9.0);
       ASSERT_TRUE(simulation.objects()[0].held);
-      const tools::ToolState fork = simulation.fork();
+      const tools::ToolState fork = simulation.tool();
       const std::string what = validation::name_of(mode) + ", " + validation::name_of(shape);
       EXPECT_NEAR(fork.stretch, 3.0 / stretch, 2e-3 * 3.0 / stretch) << what;
       // The force stretches the bent fork as well: the deflection is that of the stiffness to first order.
@@ -69,12 +69,12 @@ TEST(ExternalWrench, OfTheWeightUpwardsBringsTheForkToItsRestLength) {
       set.force_scale = scale;
       Simulation simulation = holding(one_box(mode), set);
       simulation.advance(5.0);
-      EXPECT_NEAR(simulation.fork().stretch, g / stretch, 1e-6);
-      EXPECT_NEAR(simulation.fork().weight, scale == 1.0 ? 1.0 : simulation.fork().weight, 1e-4);
+      EXPECT_NEAR(simulation.tool().stretch, g / stretch, 1e-6);
+      EXPECT_NEAR(simulation.tool().weight, scale == 1.0 ? 1.0 : simulation.tool().weight, 1e-4);
       measure(simulation, 5.0, 12.0, {{0.0, 0.0, g / scale}, Vector3d::Zero()});  // in real units
       simulation.advance(12.0);
-      EXPECT_NEAR(simulation.fork().stretch, 0.0, 1e-7) << validation::name_of(mode);
-      EXPECT_LT(simulation.fork().tip_wrench_W.force.norm(), 1e-3) << validation::name_of(mode);
+      EXPECT_NEAR(simulation.tool().stretch, 0.0, 1e-7) << validation::name_of(mode);
+      EXPECT_LT(simulation.tool().tip_wrench_W.force.norm(), 1e-3) << validation::name_of(mode);
     }
   }
 }
@@ -90,7 +90,7 @@ TEST(ExternalWrench, AddsToContact) {
     };
     measure(simulation, 2.0, 4.0, {{0.0, 0.0, -20.0}, Vector3d::Zero()});
     simulation.advance(3.99);
-    EXPECT_NEAR(carried() + simulation.fork().tip_wrench_W.force.z(), g + 20.0, 0.05) << validation::name_of(mode);
+    EXPECT_NEAR(carried() + simulation.tool().tip_wrench_W.force.z(), g + 20.0, 0.05) << validation::name_of(mode);
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 * size_z, 1e-4);
     simulation.advance(6.0);  // the watchdog has ended it
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 * size_z, 1e-4);
@@ -108,7 +108,7 @@ TEST(ExternalWrench, InTipAxesItTurnsWithTheTip) {
   measure(simulation, 1.0, 9.0, {{0.5, 0.0, 0.0}, Vector3d::Zero()}, Axes::tip);
   simulation.advance(9.0);
   const Vector3d gone = simulation.objects()[0].X_WO.translation() - Vector3d(0.0, 0.0, 0.5);
-  const Vector3d x_E = simulation.fork().X_WE.linear().col(0);
+  const Vector3d x_E = simulation.tool().X_WE.linear().col(0);
   EXPECT_NEAR(std::abs(x_E.y()), 1.0, 1e-3);  // the fork points down and is turned
   EXPECT_NEAR(gone.y(), x_E.y() * 0.5 / bend, 1e-5);
   EXPECT_NEAR(gone.x(), 0.0, 1e-6);
@@ -122,8 +122,8 @@ TEST(ExternalWrench, ActsAtTheTip) {
   Simulation simulation = holding(one_box(scene::ContactMode::none, 0.0), set, above + Vector3d(off, 0.0, 0.0));
   measure(simulation, 1.0, 9.0, {{0.0, 1.0, 0.0}, {0.0, 0.0, 0.02}});
   simulation.advance(9.0);
-  EXPECT_NEAR(std::abs(simulation.fork().torsion), 0.02 / torsion, 1e-6);  // the force has no lever
-  EXPECT_NEAR(simulation.fork().tip_wrench_W.moment.z(), -0.02, 1e-5);
+  EXPECT_NEAR(std::abs(simulation.tool().torsion), 0.02 / torsion, 1e-6);  // the force has no lever
+  EXPECT_NEAR(simulation.tool().tip_wrench_W.moment.z(), -0.02, 1e-5);
 }
 
 TEST(ExternalWrench, TheWatchdogEndsItAsAZeroDoes) {
@@ -142,7 +142,7 @@ TEST(ExternalWrench, TheWatchdogEndsItAsAZeroDoes) {
       ASSERT_EQ(report.wrench_timeouts, 0.013 * i < 1.25 ? 0 : 1) << i;
     }
     ended.advance(8.0);
-    EXPECT_NEAR(ended.fork().stretch, g / stretch, 1e-3 * g / stretch);
+    EXPECT_NEAR(ended.tool().stretch, g / stretch, 1e-3 * g / stretch);
   }
 }
 
@@ -189,7 +189,7 @@ TEST(ExternalWrench, OnARigidToolTheHandFeelsIt) {
   measure(simulation, 1.0, 3.0, {{2.0, 0.0, g}, Vector3d::Zero()});
   simulation.advance(3.0);
   EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0.0, 0.0, 0.5)).norm(), 1e-9);
-  EXPECT_LT((simulation.fork().tip_wrench_W.force - Vector3d(-2.0, 0.0, 0.0)).norm(), 1e-9);
+  EXPECT_LT((simulation.tool().tip_wrench_W.force - Vector3d(-2.0, 0.0, 0.0)).norm(), 1e-9);
   set = SimulationSettings();
   set.massless = true;
   Simulation massless = holding(one_box(scene::ContactMode::stop), set);
@@ -208,8 +208,8 @@ TEST(ExternalWrench, ThoseOfTwoHandsAdd) {
     simulation.push_external_wrench({t, {{0.0, 0.0, 0.25 * g}, Vector3d::Zero()}, Axes::world}, 1);
   }
   simulation.advance(15.0);
-  ASSERT_EQ(simulation.fork(1).held_object, "box");
-  EXPECT_NEAR(simulation.fork(0).tip_wrench_W.force.z() + simulation.fork(1).tip_wrench_W.force.z(), 0.0, 1e-3);
+  ASSERT_EQ(simulation.tool(1).held_object, "box");
+  EXPECT_NEAR(simulation.tool(0).tip_wrench_W.force.z() + simulation.tool(1).tip_wrench_W.force.z(), 0.0, 1e-3);
 }
 
 /// Beyond its limit the tool slips, and the machine's wrench continues to act.
@@ -305,12 +305,12 @@ TEST(TipTwist, IsTheDerivativeOfTheTipsPose) {
       for (const double t : {0.613, 1.131, 2.007}) {
         constexpr double dt = 1e-5;
         simulation.advance(t - dt);
-        const RigidTransform before = simulation.fork().X_WE;
+        const RigidTransform before = simulation.tool().X_WE;
         simulation.advance(t);
-        const tools::ToolState now = simulation.fork();
+        const tools::ToolState now = simulation.tool();
         ASSERT_EQ(now.held_object, holds ? "box" : "");
         simulation.advance(t + dt);
-        const RigidTransform after = simulation.fork().X_WE;
+        const RigidTransform after = simulation.tool().X_WE;
         const Vector3d v = (after.translation() - before.translation()) / (2.0 * dt);
         const Eigen::AngleAxisd turn(after.linear() * before.linear().transpose());
         const Vector3d w = turn.angle() / (2.0 * dt) * turn.axis();
@@ -327,10 +327,10 @@ TEST(TipTwist, IsZeroWhileTheClutchIsOn) {
   Simulation simulation(one_box(scene::ContactMode::none), SimulationSettings());
   push_move(simulation, 0.0, 2.0, above + Vector3d(0.2, 0.0, 0.3), above + Vector3d(0.5, 0.0, 0.3));
   simulation.advance(0.5);
-  EXPECT_GT(simulation.fork().V_WE_W.linear.norm(), 0.1);
+  EXPECT_GT(simulation.tool().V_WE_W.linear.norm(), 0.1);
   simulation.push_clutch(0.5, true);
   simulation.advance(0.6);
-  EXPECT_EQ(simulation.fork().V_WE_W.linear.norm(), 0.0);
+  EXPECT_EQ(simulation.tool().V_WE_W.linear.norm(), 0.0);
 }
 
 }  // namespace

@@ -105,11 +105,11 @@ TEST(Massless, EveryObjectOfTheWorldFollowsTheTipAndStaysWhereItIsReleased) {
     s.push_button(0.0, true);
     s.push_button(0.98, false);
     s.advance(0.9);
-    const RigidTransform X_WO = s.fork().X_WH * Eigen::Translation3d(0.0, 0.0, settings.fork.length) *
+    const RigidTransform X_WO = s.tool().X_WH * Eigen::Translation3d(0.0, 0.0, settings.fork.length) *
                                 pointing_down(Vector3d::Zero()).inverse();
     EXPECT_TRUE(object(s, name).held);
     EXPECT_LT((object(s, name).X_WO.matrix() - X_WO.matrix()).norm(), 1e-12);
-    EXPECT_EQ(s.fork().weight, 0.0);
+    EXPECT_EQ(s.tool().weight, 0.0);
     s.advance(0.99);
     const RigidTransform released = object(s, name).X_WO;
     s.advance(2.0);

@@ -51,8 +51,8 @@ TEST(ManyHands, AroundTheMiddleEachCarriesItsShare) {
       const double share = mass / static_cast<double>(n);
       EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 - share * g / 2000.0, 1e-6) << shape << n;
       for (std::size_t hand = 0; hand < n; ++hand) {
-        EXPECT_NEAR(simulation.fork(hand).weight, share, 1e-5) << shape << n;
-        EXPECT_LT(simulation.fork(hand).tip_wrench_W.force.head<2>().norm(), 1e-4) << shape << n;
+        EXPECT_NEAR(simulation.tool(hand).weight, share, 1e-5) << shape << n;
+        EXPECT_LT(simulation.tool(hand).tip_wrench_W.force.head<2>().norm(), 1e-4) << shape << n;
       }
     }
   }
@@ -76,7 +76,7 @@ std::vector<bodies::BodyState> carried_by_three(const std::vector<std::size_t>& 
     simulation.advance(t);
     path.push_back(simulation.objects()[0]);
   }
-  for (std::size_t hand = 0; hand < 3; ++hand) EXPECT_EQ(simulation.fork(hand).held_object, "plate");
+  for (std::size_t hand = 0; hand < 3; ++hand) EXPECT_EQ(simulation.tool(hand).held_object, "plate");
   return path;
 }
 
@@ -132,10 +132,10 @@ TEST(ManyHands, WhatIsSetForOneNeverChangesTheOthers) {
     for (std::size_t other = 0; other < 4; ++other) {
       if (other == hand) continue;
       EXPECT_EQ(distance(s.objects()[other], undisturbed.simulation.objects()[other]), 0.0) << trial;
-      EXPECT_EQ(s.fork(other).stiffness.stretch, undisturbed.simulation.fork(other).stiffness.stretch);
-      EXPECT_EQ(s.fork(other).strain, undisturbed.simulation.fork(other).strain);
+      EXPECT_EQ(s.tool(other).stiffness.stretch, undisturbed.simulation.tool(other).stiffness.stretch);
+      EXPECT_EQ(s.tool(other).strain, undisturbed.simulation.tool(other).strain);
     }
-    EXPECT_NE(s.fork(hand).stiffness.stretch, undisturbed.simulation.fork(hand).stiffness.stretch);
+    EXPECT_NE(s.tool(hand).stiffness.stretch, undisturbed.simulation.tool(hand).stiffness.stretch);
   }
 }
 
@@ -179,12 +179,12 @@ TEST(ManyHands, AReleasingHandLeavesTheWeightToTheOthers) {
         s.advance(begin + t);
         farthest = std::max(farthest, (s.objects()[0].X_WO.translation() - before.X_WO.translation()).norm());
       }
-      EXPECT_EQ(s.fork(leaves).held_object, "");
+      EXPECT_EQ(s.tool(leaves).held_object, "");
       EXPECT_LT(farthest, 1e-4) << shape << leaves;
-      for (std::size_t hand = 0; hand < 4; ++hand) carried += s.fork(hand).tip_wrench_W.force.z();
+      for (std::size_t hand = 0; hand < 4; ++hand) carried += s.tool(hand).tip_wrench_W.force.z();
       EXPECT_NEAR(carried, mass * g, 1e-3) << shape << leaves;
     }
-    EXPECT_EQ(s.fork(1).held_object, "plate");
+    EXPECT_EQ(s.tool(1).held_object, "plate");
   }
 }
 
@@ -202,7 +202,7 @@ TEST(ManyHands, AFirstSampleThatIsARoundingErrorLaterIsOfTheSameTime) {
       int acts = 0, steps = 0;
       for (int k = 1; k <= 20; ++k) {
         ASSERT_NO_THROW(steps += s.advance(0.02 * k).steps) << later;
-        const tools::ToolState f = s.fork(1);
+        const tools::ToolState f = s.tool(1);
         acts += f.touched == "plate" || f.held_object == "plate" ? 1 : 0;
       }
       EXPECT_GT(acts, 0) << validation::name_of(tool) << later;
@@ -218,7 +218,7 @@ TEST(ManyHands, ThatAreNotUsedChangeNothing) {
   EXPECT_EQ(of_one.steps, of_many.steps);
   EXPECT_EQ(of_one.collision_queries, of_many.collision_queries);
   EXPECT_EQ(of_one.ran, of_many.ran);
-  EXPECT_FALSE(many.simulation.fork(254).present);
+  EXPECT_FALSE(many.simulation.tool(254).present);
 }
 
 TEST(ManyHands, AnyNumberFromOneTo255) {
@@ -231,11 +231,11 @@ TEST(ManyHands, AnyNumberFromOneTo255) {
     Simulation s(plate(), with(styluses));
     EXPECT_EQ(s.hands(), styluses);
     EXPECT_THROW(s.push_stylus({0.0, pointing_down(place(0, 1))}, styluses), validation::InputError);
-    EXPECT_THROW(s.fork(styluses), validation::InputError);
+    EXPECT_THROW(s.tool(styluses), validation::InputError);
     s.push_stylus({0.0, pointing_down(Vector3d(0, 0, 0.7))}, styluses - 1);
     s.push_button(0.0, true, styluses - 1);
     s.advance(0.1);
-    EXPECT_EQ(s.fork(styluses - 1).held_object, "plate");
+    EXPECT_EQ(s.tool(styluses - 1).held_object, "plate");
   }
 }
 

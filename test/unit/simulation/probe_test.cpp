@@ -52,7 +52,7 @@ struct Press {
     for (int k = 0; k <= samples; ++k) simulation.push_stylus({0.02 * k, pointing_down({0.0, 0.0, height(0.02 * k)})});
     for (int k = 0; k < samples; ++k) {
       simulation.advance(0.02 * k);
-      tools::ToolState tool = simulation.fork();
+      tools::ToolState tool = simulation.tool();
       tool.X_WS.translation() += Vector3d(normal(random), normal(random), normal(random));
       readings.take(0.02 * k, tool, mass > 0.0 ? object(simulation, "block").X_WO : RigidTransform::Identity());
       if (!tool.touched.empty()) of_touch = readings;
@@ -156,8 +156,8 @@ TEST(Probe, PressesTheBench) {
   Simulation simulation(scene, with_probe(1000.0));
   simulation.push_stylus({0.0, pointing_down({0.3, 0.0, 0.18})});
   simulation.advance(0.1);
-  EXPECT_EQ(simulation.fork().touched, "workbench");
-  EXPECT_NEAR(simulation.fork().handle_wrench_H.force.z(), -0.02 / (1.0 / 5e3 + 1.0 / 1e3), 1e-6);
+  EXPECT_EQ(simulation.tool().touched, "workbench");
+  EXPECT_NEAR(simulation.tool().handle_wrench_H.force.z(), -0.02 / (1.0 / 5e3 + 1.0 / 1e3), 1e-6);
 }
 
 /// The probe level, pointing along x.
@@ -172,7 +172,7 @@ TEST(Probe, PushesABoxAlongTheBenchAgainstFriction) {
                           with_probe(probe));
     for (double t = 0.0; t < 2.0; t += 0.02) simulation.push_stylus({t, level({-0.15 + 0.1 * t, 0.0, 0.02})});
     simulation.advance(1.8);
-    const tools::ToolState tool = simulation.fork();
+    const tools::ToolState tool = simulation.tool();
     EXPECT_EQ(tool.touched, "box");
     EXPECT_FALSE(simulation.objects()[0].held);
     // At constant speed the push is the friction, and the box is that much ahead of where the tip would be.
@@ -182,7 +182,7 @@ TEST(Probe, PushesABoxAlongTheBenchAgainstFriction) {
     // When withdrawn, it leaves the box in place.
     for (double t = 2.0; t < 3.0; t += 0.02) simulation.push_stylus({t, level({0.05 - 0.2 * (t - 2.0), 0.0, 0.02})});
     simulation.advance(3.0);
-    EXPECT_EQ(simulation.fork().touched, "");
+    EXPECT_EQ(simulation.tool().touched, "");
     EXPECT_LT(simulation.objects()[0].V_WO_W.linear.norm(), 1e-2);
   }
 }
@@ -210,7 +210,7 @@ TEST(Probe, CannotHold) {
   push_move(simulation, 0.0, 1.0, Vector3d(0, 0, 0.7), Vector3d(0.2, 0, 0.8));
   simulation.push_button(0.0, true);
   simulation.advance(0.5);
-  ASSERT_EQ(simulation.fork().held_object, "box");
+  ASSERT_EQ(simulation.tool().held_object, "box");
   const bodies::BodyState before = simulation.objects()[0];
   EXPECT_NE(simulation.select_tool(tools::Tool::spring_probe).message.find("released"), std::string::npos);
   EXPECT_FALSE(simulation.objects()[0].held);

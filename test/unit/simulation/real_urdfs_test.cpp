@@ -26,7 +26,7 @@ void lift_and_put_down(const scene::Scene& scene, const scene::Body& body) {
   const Vector3d start = body.X_WO.translation(), hand = start + Vector3d(0.0, 0.0, set.fork.length);
   simulation.push_stylus({0.0, pointing_down(hand)});
   simulation.advance(0.0);
-  const Vector3d lift(0.0, 0.0, 0.2 + 0.1 * simulation.fork().length);  // and what it sags
+  const Vector3d lift(0.0, 0.0, 0.2 + 0.1 * simulation.tool().length);  // and what it sags
   push_move(simulation, 0.02, 1.0, hand, hand + lift);
   push_move(simulation, 4.0, 5.0, hand + lift, hand);
   const double size = geometry::bounding_radius(body.collision);

@@ -61,11 +61,11 @@ TEST_F(Overlapping, PressedInTheAirTheButtonGraspsNothingLater) {
   ASSERT_EQ(lit_at(-0.2), "");
   simulation_.push_button(t_, true);
   lit_at(0.0);
-  EXPECT_EQ(simulation_.fork().held_object, "");
+  EXPECT_EQ(simulation_.tool().held_object, "");
   simulation_.push_button(t_, false);
   simulation_.push_button(t_ + 0.05, true);
   lit_at(0.0);
-  EXPECT_NE(simulation_.fork().held_object, "");
+  EXPECT_NE(simulation_.tool().held_object, "");
 }
 
 TEST_F(Overlapping, WhatIsLitIsHeldWhereTheTipIsWhileTheButtonIsDown) {
@@ -73,12 +73,12 @@ TEST_F(Overlapping, WhatIsLitIsHeldWhereTheTipIsWhileTheButtonIsDown) {
     const std::string lit = lit_at(x);
     simulation_.push_button(t_, true);
     simulation_.advance(t_ += 0.02);
-    EXPECT_EQ(simulation_.fork().held_object, lit);
-    const Vector3d tip = simulation_.fork().X_WE.translation();
+    EXPECT_EQ(simulation_.tool().held_object, lit);
+    const Vector3d tip = simulation_.tool().X_WE.translation();
     EXPECT_LT((tip - Vector3d(x, 0.0, left.z())).norm(), 1e-9) << x;
     simulation_.push_button(t_, false);
     simulation_.advance(t_ += 0.02);
-    EXPECT_EQ(simulation_.fork().held_object, "");
+    EXPECT_EQ(simulation_.tool().held_object, "");
     simulation_.reset();
     t_ = 0.0;
   }

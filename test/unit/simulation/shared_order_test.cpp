@@ -287,7 +287,7 @@ TEST(SharedLaw, ReadingsOfAllToolsAreTheChangeOfMomentum) {
     Simulation simulation = c.setup(stepping(dynamics::IntegratorKind::exponential, 1e-3), false);
     const auto pull = [&] {
       Vector3d sum = -c.mass * 9.81 * Vector3d::UnitZ();
-      for (std::size_t hand = 0; hand < simulation.hands(); ++hand) sum += simulation.fork(hand).tip_wrench_W.force;
+      for (std::size_t hand = 0; hand < simulation.hands(); ++hand) sum += simulation.tool(hand).tip_wrench_W.force;
       return sum;
     };
     simulation.advance(0.2);
@@ -357,7 +357,7 @@ TEST(SharedLaw, TheBenchCarriesWhatBothHandsPress) {
       EXPECT_NEAR(o.X_WO.translation().z(), 0.02, 2e-5) << shape;
       EXPECT_LT(o.V_WO_W.linear.norm(), 1e-5) << shape;
       double pressed = 0.0;
-      for (std::size_t hand = 0; hand < 2; ++hand) pressed -= simulation.fork(hand).tip_wrench_W.force.z();
+      for (std::size_t hand = 0; hand < 2; ++hand) pressed -= simulation.tool(hand).tip_wrench_W.force.z();
       EXPECT_GT(pressed, 20.0) << shape;
     }
   }
@@ -395,15 +395,15 @@ TEST(SharedLaw, WhatIsOffInBothForksSharesThePressOnTheBench) {
 TEST(SharedLaw, ARigidToolLeadsExactly) {
   Simulation simulation = two_forks({}, "bushing", false);
   simulation.advance(0.0);
-  const Vector3d p_SO = simulation.fork(0).X_WS.inverse() * simulation.objects()[0].X_WO.translation();
+  const Vector3d p_SO = simulation.tool(0).X_WS.inverse() * simulation.objects()[0].X_WO.translation();
   simulation.select_tool(tools::Tool::direct, 0);
   for (double t = sample; t < duration; t += sample) {
     simulation.advance(t);
     if (t < 0.8) continue;  // the twist that it had goes with the DOFs that were switched off
-    const RigidTransform X_WS = simulation.fork(0).X_WS;
+    const RigidTransform X_WS = simulation.tool(0).X_WS;
     EXPECT_LT((X_WS * p_SO - simulation.objects()[0].X_WO.translation()).norm(), 1e-6) << t;
   }
-  EXPECT_GT(simulation.fork(1).tip_wrench_W.force.norm(), 0.1);  // it is turned about the other hand's axis
+  EXPECT_GT(simulation.tool(1).tip_wrench_W.force.norm(), 0.1);  // it is turned about the other hand's axis
 }
 
 }  // namespace

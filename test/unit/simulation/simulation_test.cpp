@@ -109,7 +109,7 @@ TEST(Simulation, LiftedBoxHangsByItsWeight) {
   simulation.push_stylus({5.0, pointing_down(above + Vector3d(0.0, 0.0, 0.2))});
   simulation.push_button(0.0, true);
   simulation.advance(5.0);
-  const tools::ToolState fork = simulation.fork();
+  const tools::ToolState fork = simulation.tool();
   EXPECT_EQ(fork.held_object, "box");
   EXPECT_NEAR(fork.stretch, 9.81 / 2000.0, 1e-6 * 9.81 / 2000.0);
   EXPECT_NEAR(fork.tip_wrench_W.force.z(), 9.81, 1e-6);
@@ -127,7 +127,7 @@ TEST(Simulation, PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference) 
     simulation.advance(0.02 * i);
     EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.02 - 1e-5);
   }
-  EXPECT_NEAR(simulation.fork().stretch, -0.03, 1e-4);
+  EXPECT_NEAR(simulation.tool().stretch, -0.03, 1e-4);
   EXPECT_TRUE(simulation.objects()[0].in_contact);
   EXPECT_LT(simulation.objects()[0].V_WO_W.linear.norm(), 1e-4);
 }
@@ -171,11 +171,11 @@ TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
     simulation.advance(0.02 * i);
     EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.02 - 1e-5);
   }
-  const tools::ToolState fork = simulation.fork();
+  const tools::ToolState fork = simulation.tool();
   EXPECT_NEAR(fork.X_WH_proxy.translation().z() - fork.X_WH.translation().z(), 0.05, 2e-3);
   // The path is free again: the gap closes.
   simulation.advance(3.0);
-  EXPECT_LT((simulation.fork().X_WH_proxy.matrix() - simulation.fork().X_WH.matrix()).norm(), 1e-9);
+  EXPECT_LT((simulation.tool().X_WH_proxy.matrix() - simulation.tool().X_WH.matrix()).norm(), 1e-9);
   EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.12, 1e-6);
 }
 
@@ -256,12 +256,12 @@ ForkChange dofs_change(const rod::ForkDofs& dofs) {
 }
 
 TEST_F(Switching, TorsionOffAndOn) {
-  ASSERT_GT(std::abs(simulation.fork().torsion), 1e-3);
+  ASSERT_GT(std::abs(simulation.tool().torsion), 1e-3);
   const ChangeReport off = simulation.change(dofs_change({true, true, false}));
   EXPECT_GT(off.elastic_energy_before, 0.0);
   expect_no_jump();
   simulation.advance(2.0);
-  EXPECT_LT(std::abs(simulation.fork().torsion), 1e-9);
+  EXPECT_LT(std::abs(simulation.tool().torsion), 1e-9);
   const RigidTransform X = simulation.objects()[0].X_WO;
   simulation.change(dofs_change({true, true, true}));
   EXPECT_LT((simulation.objects()[0].X_WO.matrix() - X.matrix()).norm(), 1e-15);
@@ -271,11 +271,11 @@ TEST_F(Switching, AllOff) {
   simulation.change(dofs_change({false, false, false}));
   expect_no_jump();
   simulation.advance(6.0);
-  EXPECT_EQ(simulation.fork().elastic_energy, 0.0);
+  EXPECT_EQ(simulation.tool().elastic_energy, 0.0);
 }
 
 TEST_F(Switching, NewStiffnessReportsTheEnergyItAdds) {
-  const double torsion = simulation.fork().torsion;
+  const double torsion = simulation.tool().torsion;
   ForkChange torsion_alone;
   torsion_alone.torsion_stiffness = 15.0;
   const ChangeReport change = simulation.change(torsion_alone);
@@ -290,7 +290,7 @@ TEST_F(Switching, EveryIntegratorTakesOver) {
     DynamicsChange change;
     change.integrator = kind;
     simulation.change(change);
-    EXPECT_EQ(simulation.fork().integrator, kind);
+    EXPECT_EQ(simulation.tool().integrator, kind);
     EXPECT_EQ(simulation.settings().dynamics.step, 0.02);
   }
   expect_no_jump();
@@ -435,7 +435,7 @@ TEST(Simulation, MasslessObjectFollowsTheTipExactly) {
   push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.3, 0.1, 0.2), 2.0);
   simulation.push_button(0.0, true);
   simulation.advance(0.5);
-  const tools::ToolState fork = simulation.fork();
+  const tools::ToolState fork = simulation.tool();
   EXPECT_LT((fork.X_WE.translation() - simulation.objects()[0].X_WO.translation()).norm(), 1e-12);
   EXPECT_EQ(fork.elastic_energy, 0.0);
 }
@@ -470,7 +470,7 @@ TEST(Tools, SpringExtendsByTheWeightAndExertsNoMoment) {
     simulation.push_stylus({0.0, pointing_down({0.0, 0.0, 1.2})});
     simulation.push_button(0.0, true);
     simulation.advance(10.0);
-    const tools::ToolState tool = simulation.fork();
+    const tools::ToolState tool = simulation.tool();
     EXPECT_EQ(tool.tool, tools::Tool::spring);
     EXPECT_NEAR(tool.stretch, 9.81 / k, 1e-9 * 9.81 / k);
     EXPECT_NEAR(tool.weight, 1.0, 1e-9);
@@ -525,10 +525,10 @@ TEST(Calibrated, NoWeightAndThreeHundredKilogramsAreBothEasyToMove) {
       guards += simulation.advance(0.02 * i).steps_rejected;
       farthest = std::max(farthest, simulation.objects()[0].X_WO.translation().x());
       const Vector3d behind =
-          simulation.objects()[0].X_WO.translation() + Vector3d(0, 0, 0.2) - simulation.fork().X_WS.translation();
+          simulation.objects()[0].X_WO.translation() + Vector3d(0, 0, 0.2) - simulation.tool().X_WS.translation();
       EXPECT_LT(behind.head<2>().norm(), 0.1) << mass;
       if (i > 100) {
-        const double sag = mass > 0.0 ? 0.1 * simulation.fork().length : 0.0;
+        const double sag = mass > 0.0 ? 0.1 * simulation.tool().length : 0.0;
         EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0.3, 0.1, 0.6 - sag)).norm(), 3e-3) << mass;
       }
     }
@@ -547,11 +547,11 @@ TEST(Tools, DirectAndRayAreRigid) {
     push_move(simulation, 0.0, 1.0, hand, hand + Vector3d(0.3, 0.1, 0.2), 2.0);
     simulation.push_button(0.0, true);
     simulation.advance(0.0);
-    ASSERT_EQ(simulation.fork().held_object, "box") << name;
-    const RigidTransform X_HO = simulation.fork().X_WH.inverse() * simulation.objects()[0].X_WO;
+    ASSERT_EQ(simulation.tool().held_object, "box") << name;
+    const RigidTransform X_HO = simulation.tool().X_WH.inverse() * simulation.objects()[0].X_WO;
     for (int i = 1; i <= 50; ++i) {
       simulation.advance(0.02 * i);
-      const RigidTransform X = simulation.fork().X_WH.inverse() * simulation.objects()[0].X_WO;
+      const RigidTransform X = simulation.tool().X_WH.inverse() * simulation.objects()[0].X_WO;
       EXPECT_LT((X.matrix() - X_HO.matrix()).norm(), 1e-12) << name;
     }
   }
@@ -562,7 +562,7 @@ TEST_F(Switching, EveryToolTakesOverWithoutAJump) {
        {tools::Tool::direct, tools::Tool::spring, tools::Tool::ray, tools::Tool::spring_fork}) {
     const std::string& name = validation::name_of(tool);
     EXPECT_GE(simulation.select_tool(tool).elastic_energy_before, 0.0);
-    EXPECT_EQ(simulation.fork().tool, tool);
+    EXPECT_EQ(simulation.tool().tool, tool);
     EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-9) << name;
     EXPECT_LT((simulation.objects()[0].V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-9) << name;
     EXPECT_LT((simulation.objects()[0].V_WO_W.angular - before.V_WO_W.angular).norm(), 1e-9) << name;
@@ -581,7 +581,7 @@ TEST(Tools, NothingIsGraspedThroughAWall) {
   simulation.push_stylus({0.0, pointing_down(above)});
   simulation.push_button(0.0, true);
   simulation.advance(0.1);
-  EXPECT_EQ(simulation.fork().held_object, "");
+  EXPECT_EQ(simulation.tool().held_object, "");
 }
 
 TEST(Simulation, SettingsThatDoNotFitAreRefused) {
@@ -628,8 +628,8 @@ class HeldAtRest : public testing::Test {
 TEST_F(HeldAtRest, CostsNothing) { expect_asleep(); }
 
 TEST_F(HeldAtRest, SagsByItsWeight) {
-  EXPECT_NEAR(simulation.fork().tip_wrench_W.force.z(), 9.81, 2e-5);
-  EXPECT_NEAR(simulation.fork().tip_wrench_W.force.head<2>().norm(), 0.0, 2e-5);
+  EXPECT_NEAR(simulation.tool().tip_wrench_W.force.z(), 9.81, 2e-5);
+  EXPECT_NEAR(simulation.tool().tip_wrench_W.force.head<2>().norm(), 0.0, 2e-5);
 }
 
 TEST_F(HeldAtRest, WakesWithANewStiffness) {
@@ -689,7 +689,7 @@ TEST(Simulation, MasslessObjectFollowsTheTipExactlyAndStopsAtTheBench) {
   simulation.push_button(0.0, true);
   for (int i = 1; i <= 50; ++i) {
     simulation.advance(0.02 * i);
-    const RigidTransform X_HO = simulation.fork().X_WH.inverse() * simulation.objects()[0].X_WO;
+    const RigidTransform X_HO = simulation.tool().X_WH.inverse() * simulation.objects()[0].X_WO;
     EXPECT_LT((X_HO.translation() - Vector3d(0.0, 0.0, 0.2)).norm(), 1e-9) << i;
   }
   simulation.advance(2.0);
@@ -707,7 +707,7 @@ TEST(Simulation, PointMassOnTheAxisDoesNotTwistAndOffItDoes) {
     double largest = 0.0;
     for (int i = 1; i <= 50; ++i) {
       simulation.advance(0.02 * i);
-      largest = std::max(largest, std::abs(simulation.fork().torsion));
+      largest = std::max(largest, std::abs(simulation.tool().torsion));
     }
     EXPECT_TRUE(std::isfinite(largest));
     return largest;

@@ -28,7 +28,7 @@ SimulationSettings slipping_at(double force, tools::Tool tool = tools::Tool::spr
 }
 
 double gap(const Simulation& simulation) {
-  const tools::ToolState f = simulation.fork();
+  const tools::ToolState f = simulation.tool();
   return (f.X_WH.translation() - f.X_WH_proxy.translation()).norm();
 }
 
@@ -54,7 +54,7 @@ struct Pulled {
     for (int i = 1; i * step < 4.0; ++i) {
       simulation.advance(i * step);
       EXPECT_TRUE(simulation.objects()[0].held) << i * step;
-      const double force = simulation.fork().tip_wrench_W.force.norm();
+      const double force = simulation.tool().tip_wrench_W.force.norm();
       if (slip_test::gap(simulation) > 0.1) {  // nearer, it comes back faster than the hand does
         EXPECT_NEAR(force, limit, 0.01 * limit) << i * step;
         at_limit += step;
@@ -95,7 +95,7 @@ TEST_P(Slip, TheToolReturnsToTheHand) {
   double widest = 0.0;
   for (int i = 1; i <= 300; ++i) {
     simulation.advance(0.02 * i);
-    EXPECT_LE(simulation.fork().tip_wrench_W.force.norm(), 1.01 * 1.3 * g);
+    EXPECT_LE(simulation.tool().tip_wrench_W.force.norm(), 1.01 * 1.3 * g);
     widest = std::max(widest, gap(simulation));
   }
   EXPECT_GT(widest, 0.05);
@@ -129,8 +129,8 @@ struct PulledByOneOfTwo {
     double before = 0.0;
     for (int i = 1; i * step < 6.0; ++i) {
       simulation.advance(i * step);
-      for (const std::size_t hand : {0u, 1u}) EXPECT_EQ(simulation.fork(hand).held_object, "plate") << i * step;
-      const double force = simulation.fork().tip_wrench_W.force.norm();
+      for (const std::size_t hand : {0u, 1u}) EXPECT_EQ(simulation.tool(hand).held_object, "plate") << i * step;
+      const double force = simulation.tool().tip_wrench_W.force.norm();
       EXPECT_LT(force, 1.01 * 25.0) << i * step;
       if (slip_test::gap(simulation) > 0.05) {
         EXPECT_NEAR(force, 25.0, 0.01 * 25.0) << i * step;
@@ -173,8 +173,8 @@ TEST(SlipInTheAir, SeveralToolsSlipEachAtItsLimit) {
     simulation.advance(0.6);
     const bodies::BodyState a = simulation.objects()[0];
     for (std::size_t k = 0; k < tools; ++k) {
-      EXPECT_EQ(simulation.fork(k).held_object, "plate");
-      EXPECT_NEAR(simulation.fork(k).tip_wrench_W.force.norm(), 12.0, 0.12);
+      EXPECT_EQ(simulation.tool(k).held_object, "plate");
+      EXPECT_NEAR(simulation.tool(k).tip_wrench_W.force.norm(), 12.0, 0.12);
     }
     simulation.advance(0.8);
     const double acceleration = static_cast<double>(tools) * 12.0 / 5.0 - g;
@@ -190,7 +190,7 @@ TEST(SlipInTheAir, TheObjectMovesAsNewtonSays) {
   simulation.push_button(0.0, true);
   simulation.advance(0.6);
   const bodies::BodyState a = simulation.objects()[0];
-  EXPECT_NEAR(simulation.fork().tip_wrench_W.force.norm(), limit, 1e-6);
+  EXPECT_NEAR(simulation.tool().tip_wrench_W.force.norm(), limit, 1e-6);
   simulation.advance(1.0);
   const bodies::BodyState b = simulation.objects()[0];
   const double acceleration = limit / 5.0 - g;
@@ -212,7 +212,7 @@ TEST(SlipInTheAir, TheMomentHasALimit) {
   double turned = 0.0;
   for (int i = 1; i <= 50; ++i) {
     simulation.advance(0.02 * i);
-    const tools::ToolState f = simulation.fork();
+    const tools::ToolState f = simulation.tool();
     EXPECT_LT(f.tip_wrench_W.moment.norm(), 1.01 * 0.3);
     const double turn = math::turn_between(f.X_WH, f.X_WH_proxy).norm();
     const bool slips = turn > turned;  // it does not come back to the hand

@@ -60,7 +60,7 @@ void append_outputs(const Simulation& s, const AdvanceReport& report, Numbers& o
     out.insert(out.end(), {double(o.held), double(o.highlighted), double(o.in_contact), double(o.asleep)});
   }
   for (std::size_t hand = 0; hand < s.hands(); ++hand) {
-    const tools::ToolState f = s.fork(hand);
+    const tools::ToolState f = s.tool(hand);
     matrix(f.X_WH_proxy.matrix());
     matrix(f.X_WE.matrix());
     matrix(f.strain);
@@ -121,10 +121,10 @@ Numbers go_on(Simulation& s, unsigned session, int from, int to, Seen* seen = nu
     append_outputs(s, report, out);
     if (seen == nullptr) continue;
     for (std::size_t hand = 0; hand < s.hands(); ++hand) {
-      const tools::ToolState f = s.fork(hand);
+      const tools::ToolState f = s.tool(hand);
       if (!f.held_object.empty() || !f.touched.empty()) seen->tools_in_use.insert(f.tool);
     }
-    seen->both_hold += !s.fork(0).held_object.empty() && !s.fork(1).held_object.empty();
+    seen->both_hold += !s.tool(0).held_object.empty() && !s.tool(1).held_object.empty();
     seen->contacts += static_cast<int>(s.contacts().size());
     seen->among_movable += report.steps_among_movable;
   }

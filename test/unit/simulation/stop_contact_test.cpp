@@ -83,7 +83,7 @@ Shifted shift(double bend, double sideways, double lowered) {
   push_move(s, 0.42, 0.8, end, end);
   s.advance(0.8);
   const RigidTransform& X = s.objects()[0].X_WO;
-  const Wrench& tip = s.fork().tip_wrench_W;
+  const Wrench& tip = s.tool().tip_wrench_W;
   return {tip.force.x(), tip.force.z(), std::acos(std::min(1.0, X.linear()(2, 2))),
           (X.translation() - Vector3d(0, 0, 0.02)).norm()};
 }
@@ -261,7 +261,7 @@ TEST(StopContact, TheErrorInEnergyKnowsTheWorkOfTheBench) {
   simulation.push_button(0.0, true);
   simulation.advance(0.98);
   const AdvanceReport report = simulation.advance(1.9);
-  EXPECT_GT(simulation.fork().elastic_energy, 0.05);
+  EXPECT_GT(simulation.tool().elastic_energy, 0.05);
   EXPECT_LT(report.energy_error, 2e-7);
   EXPECT_EQ(report.substeps, 0);
 }

@@ -20,7 +20,7 @@ double depth_of(const RigidTransform& X, double wall_x) {
 }
 
 double energy(const Simulation& s, const scene::Scene& scene) {
-  const tools::ToolState fork = s.fork();
+  const tools::ToolState fork = s.tool();
   return fork.elastic_energy + fork.kinetic_energy +
          scene.bodies[0].mass_properties.mass * scene.gravity * s.objects()[0].X_WO.translation().z();
 }

@@ -45,7 +45,7 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
         const scene::Scene scene = one_box(size, mass);
         Simulation simulation = grasped(scene, settings(true), tip);
         simulation.advance(0.0);
-        const tools::ToolState fork = simulation.fork();
+        const tools::ToolState fork = simulation.tool();
         ASSERT_EQ(fork.held_object, "box");
         EXPECT_NEAR(fork.length, fitting_length(scene), 1e-12);
         EXPECT_LT((simulation.objects()[0].X_WO.translation() - start).norm(), 1e-12);
@@ -55,7 +55,7 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
         // Hanging at rest, straight under the hand: the static extension is the set part of the length.
         if (!grasp.isZero()) continue;
         simulation.advance(8.0);
-        EXPECT_NEAR(simulation.fork().stretch, 0.1 * fork.length, 1e-3 * fork.length) << scale << ", " << mass;
+        EXPECT_NEAR(simulation.tool().stretch, 0.1 * fork.length, 1e-3 * fork.length) << scale << ", " << mass;
       }
     }
   }
@@ -64,17 +64,17 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
 TEST(ToolSize, WithoutCalibrationTheForkKeepsItsLength) {
   Simulation simulation = grasped(one_box({0.1, 0.06, 0.04}, 1.0), settings(false), Vector3d::Zero());
   simulation.advance(0.0);
-  EXPECT_EQ(simulation.fork().length, reach);
-  EXPECT_TRUE(simulation.fork().X_WH.matrix() == simulation.fork().X_WS.matrix());
+  EXPECT_EQ(simulation.tool().length, reach);
+  EXPECT_TRUE(simulation.tool().X_WH.matrix() == simulation.tool().X_WS.matrix());
 }
 
 TEST(ToolSize, AfterTheReleaseTheHandReachesAsFarAsBefore) {
   Simulation simulation = grasped(one_box({0.2, 0.2, 0.2}, 1.0), settings(true), Vector3d::Zero());
   simulation.advance(0.0);
-  EXPECT_GT(simulation.fork().length, 1.5 * reach);
+  EXPECT_GT(simulation.tool().length, 1.5 * reach);
   simulation.release();
-  EXPECT_EQ(simulation.fork().length, reach);
-  EXPECT_TRUE(simulation.fork().X_WH.matrix() == simulation.fork().X_WS.matrix());
+  EXPECT_EQ(simulation.tool().length, reach);
+  EXPECT_TRUE(simulation.tool().X_WH.matrix() == simulation.tool().X_WS.matrix());
 }
 
 /// The object hangs at rest on a fork of any stiffness: calibration gives it another size and stiffness, and it stays.
@@ -88,15 +88,15 @@ TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
         Simulation simulation = grasped(one_box({0.1, 0.06, 0.04}, 1.0), set, tip);
         simulation.advance(10.0);
         const bodies::BodyState before = simulation.objects()[0];
-        const Vector3d force = simulation.fork().tip_wrench_W.force;
+        const Vector3d force = simulation.tool().tip_wrench_W.force;
         simulation.calibrate();
         EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-12);
-        EXPECT_LT((simulation.fork().tip_wrench_W.force - force).norm(), 1e-4 * force.norm()) << shape << soft;
+        EXPECT_LT((simulation.tool().tip_wrench_W.force - force).norm(), 1e-4 * force.norm()) << shape << soft;
         simulation.advance(12.0);
         EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-5) << shape << soft;
-        const double sag = 0.1 * simulation.fork().length;
+        const double sag = 0.1 * simulation.tool().length;
         if (tip.isZero()) {
-          EXPECT_NEAR(simulation.fork().stretch, sag, 1e-5);
+          EXPECT_NEAR(simulation.tool().stretch, sag, 1e-5);
         }
       }
     }

@@ -47,11 +47,11 @@ TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
     for (const double k : {2e2, 2e3, 2e5, 2e9}) {
       const SimulationSettings set = with_stiffness(k, 500.0, 5.0, shape);
       BothHold two(set);
-      ASSERT_EQ(two.simulation.fork(0).held_object, "box");
-      ASSERT_EQ(two.simulation.fork(1).held_object, "box");
+      ASSERT_EQ(two.simulation.tool(0).held_object, "box");
+      ASSERT_EQ(two.simulation.tool(1).held_object, "box");
       two.simulation.advance(6.0);
       // Each started without strain, and the first one sagged before the second grasped, so the shares differ.
-      const tools::ToolState a = two.simulation.fork(0), b = two.simulation.fork(1);
+      const tools::ToolState a = two.simulation.tool(0), b = two.simulation.tool(1);
       EXPECT_NEAR(a.tip_wrench_W.force.z() + b.tip_wrench_W.force.z(), 2.0 * g, 1e-5 * 2.0 * g) << shape << k;
       EXPECT_LT(two.simulation.objects()[0].V_WO_W.linear.norm(), 1e-6) << shape << k;
     }
@@ -67,9 +67,9 @@ TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
   simulation.advance(6.0);
   EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 - 0.5 * 2.0 * g / k, 1e-6);
   for (std::size_t hand = 0; hand < 2; ++hand) {
-    EXPECT_NEAR(simulation.fork(hand).stretch, 0.5 * 2.0 * g / k, 1e-6);
-    EXPECT_NEAR(simulation.fork(hand).tip_wrench_W.force.z(), g, 1e-5);
-    EXPECT_NEAR(simulation.fork(hand).weight, 1.0, 1e-6);
+    EXPECT_NEAR(simulation.tool(hand).stretch, 0.5 * 2.0 * g / k, 1e-6);
+    EXPECT_NEAR(simulation.tool(hand).tip_wrench_W.force.z(), g, 1e-5);
+    EXPECT_NEAR(simulation.tool(hand).weight, 1.0, 1e-6);
   }
 }
 
@@ -77,9 +77,9 @@ TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
   BothHold two(with_stiffness(2000.0, 500.0, 5.0));
   two.simulation.select_tool(tools::Tool::spring, 1);
   two.simulation.advance(20.0);
-  const double sum = two.simulation.fork(0).tip_wrench_W.force.z() + two.simulation.fork(1).tip_wrench_W.force.z();
+  const double sum = two.simulation.tool(0).tip_wrench_W.force.z() + two.simulation.tool(1).tip_wrench_W.force.z();
   EXPECT_NEAR(sum, 2.0 * g, 1e-4);
-  EXPECT_GT(two.simulation.fork(1).tip_wrench_W.force.norm(), 0.1);
+  EXPECT_GT(two.simulation.tool(1).tip_wrench_W.force.norm(), 0.1);
 }
 
 /// Largest speed of a box that two hands carry, each turning about its own fork [m/s].
@@ -142,7 +142,7 @@ TEST(TwoHands, HandsThatPassThroughEachOtherLeaveAllFiniteAndThenCarryTheWeight)
     for (double t = 0.3; t < 2.5; t += 0.01) {
       two.simulation.advance(t);
       for (std::size_t hand = 0; hand < 2; ++hand) {
-        const tools::ToolState f = two.simulation.fork(hand);
+        const tools::ToolState f = two.simulation.tool(hand);
         ASSERT_TRUE(f.strain.allFinite() && f.X_WE.matrix().allFinite() && f.tip_wrench_W.force.allFinite() &&
                     f.tip_wrench_W.moment.allFinite())
             << shape << trial << " at " << t;
@@ -151,7 +151,7 @@ TEST(TwoHands, HandsThatPassThroughEachOtherLeaveAllFiniteAndThenCarryTheWeight)
     }
     two.simulation.advance(12.0);
     const double carried =
-        two.simulation.fork(0).tip_wrench_W.force.z() + two.simulation.fork(1).tip_wrench_W.force.z();
+        two.simulation.tool(0).tip_wrench_W.force.z() + two.simulation.tool(1).tip_wrench_W.force.z();
     EXPECT_NEAR(carried, 2.0 * g, 1e-3 * 2.0 * g) << shape << trial;
   }
 }
@@ -161,14 +161,14 @@ TEST(TwoHands, AForkPushedPastItsEndLeavesItsHandleBehindUntilItComesBack) {
   ForkChange stiff;
   stiff.stretch_stiffness = stiff.bend_stiffness = stiff.torsion_stiffness = 1e9;
   two.simulation.change(stiff, 0);
-  const double L = two.simulation.fork(1).length;
+  const double L = two.simulation.tool(1).length;
   push_move(two.simulation, 0.22, 1.0, right, right - Vector3d(0.0, 0.0, 1.5 * L), 0.0, 1);
   push_move(two.simulation, 1.22, 2.0, right - Vector3d(0.0, 0.0, 1.5 * L), right, 0.0, 1);
-  const Vector3d p_OE = two.simulation.objects()[0].X_WO.inverse() * two.simulation.fork(1).X_WE.translation();
+  const Vector3d p_OE = two.simulation.objects()[0].X_WO.inverse() * two.simulation.tool(1).X_WE.translation();
   double widest = 0.0;
   for (double t = 0.3; t < 2.2; t += 0.01) {
     two.simulation.advance(t);
-    const tools::ToolState f = two.simulation.fork(1);
+    const tools::ToolState f = two.simulation.tool(1);
     ASSERT_TRUE(f.strain.allFinite() && f.tip_wrench_W.force.allFinite());
     const RigidTransform& X_WO = two.simulation.objects()[0].X_WO;
     // The tip is where it took hold of the object, also where the handle is not.
@@ -178,9 +178,9 @@ TEST(TwoHands, AForkPushedPastItsEndLeavesItsHandleBehindUntilItComesBack) {
   EXPECT_GT(widest, 1e-4);
   EXPECT_LT(widest, 0.1 * L);
   two.simulation.advance(6.0);
-  const tools::ToolState f = two.simulation.fork(1);
+  const tools::ToolState f = two.simulation.tool(1);
   EXPECT_EQ(f.X_WH_proxy.matrix(), f.X_WH.matrix());
-  EXPECT_NEAR(f.tip_wrench_W.force.z() + two.simulation.fork(0).tip_wrench_W.force.z(), 2.0 * g, 1e-4);
+  EXPECT_NEAR(f.tip_wrench_W.force.z() + two.simulation.tool(0).tip_wrench_W.force.z(), 2.0 * g, 1e-4);
 }
 
 /// For any stiffness, the second fork takes over the force of both.
@@ -194,8 +194,8 @@ TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
       const double height = before.X_WO.translation().z();
       two.simulation.push_button(6.0, false, 0);
       two.simulation.advance(6.0 + 1e-6);
-      EXPECT_EQ(two.simulation.fork(0).held_object, "");
-      EXPECT_EQ(two.simulation.fork(1).held_object, "box");
+      EXPECT_EQ(two.simulation.tool(0).held_object, "");
+      EXPECT_EQ(two.simulation.tool(1).held_object, "box");
       EXPECT_TRUE(two.simulation.objects()[0].held);
       EXPECT_LT((two.simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-9);
       double farthest = 0.0, max_turned = 0.0, fastest = 0.0;
@@ -209,7 +209,7 @@ TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
       EXPECT_LT(farthest, 1e-4) << shape << ": " << k;
       EXPECT_LT(max_turned, 1e-3) << shape << ": " << k;
       EXPECT_LT(fastest, 1e-3) << shape << ": " << k;  // no energy comes from it
-      EXPECT_NEAR(two.simulation.fork(1).tip_wrench_W.force.z(), 2.0 * g, 1e-4) << shape << ": " << k;
+      EXPECT_NEAR(two.simulation.tool(1).tip_wrench_W.force.z(), 2.0 * g, 1e-4) << shape << ": " << k;
       EXPECT_NEAR(two.p().z(), height, 1e-4);
     }
   }
@@ -254,7 +254,7 @@ TEST(TwoHands, HandoverFromAForkToASpringKeepsTheHeight) {
     two.simulation.advance(t);
     EXPECT_NEAR(two.p().z(), before.z(), 1e-3);
   }
-  EXPECT_NEAR(two.simulation.fork(1).tip_wrench_W.force.norm(), 2.0 * g, 0.1);
+  EXPECT_NEAR(two.simulation.tool(1).tip_wrench_W.force.norm(), 2.0 * g, 0.1);
 }
 
 TEST(TwoHands, HandoverBetweenRigidToolsMovesNothing) {
@@ -271,8 +271,8 @@ TEST(TwoHands, HandoverBetweenRigidToolsMovesNothing) {
     simulation.advance(t);
     EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0, 0, 0.5)).norm(), 1e-4) << t;
   }
-  EXPECT_EQ(simulation.fork(1).held_object, "box");
-  EXPECT_LT((simulation.fork(1).X_WH_proxy.matrix() - simulation.fork(1).X_WH.matrix()).norm(), 1e-9);
+  EXPECT_EQ(simulation.tool(1).held_object, "box");
+  EXPECT_LT((simulation.tool(1).X_WH_proxy.matrix() - simulation.tool(1).X_WH.matrix()).norm(), 1e-9);
 }
 
 TEST(TwoHands, TwoObjectsAreHeldIndependently) {
@@ -291,8 +291,8 @@ TEST(TwoHands, TwoObjectsAreHeldIndependently) {
     return simulation;
   };
   const Simulation one = run(false), both = run(true);
-  EXPECT_EQ(both.fork(0).held_object, "a");
-  EXPECT_EQ(both.fork(1).held_object, "b");
+  EXPECT_EQ(both.tool(0).held_object, "a");
+  EXPECT_EQ(both.tool(1).held_object, "b");
   EXPECT_TRUE(object(one, "a").X_WO.matrix() == object(both, "a").X_WO.matrix());
   EXPECT_GT(object(both, "b").X_WO.translation().y(), 0.1);
 }
@@ -328,7 +328,7 @@ TEST(NextTool, GoesThroughAllTools) {
   for (int press = 0; press < 5; ++press) {
     simulation.push_next_tool(0.01 * press);
     simulation.advance(0.01 * press);
-    seen.push_back(validation::name_of(simulation.fork().tool));
+    seen.push_back(validation::name_of(simulation.tool().tool));
   }
   EXPECT_EQ(seen, (std::vector<std::string>{"spring_probe", "direct", "ray", "spring", "spring_fork"}));
 }
@@ -340,7 +340,7 @@ TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
   std::vector<std::string> seen;
   simulation.push_button(0.1, true);
   simulation.advance(0.3);
-  ASSERT_EQ(simulation.fork().held_object, "box");
+  ASSERT_EQ(simulation.tool().held_object, "box");
   seen.clear();
   for (int press = 0; press < 4; ++press) {
     const double t = 0.4 + 0.1 * press;
@@ -352,8 +352,8 @@ TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
     const bodies::BodyState& after = simulation.objects()[0];
     EXPECT_LT((after.X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-5) << press;
     EXPECT_LT((after.V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-3) << press;
-    EXPECT_EQ(simulation.fork().held_object, "box");
-    seen.push_back(validation::name_of(simulation.fork().tool));
+    EXPECT_EQ(simulation.tool().held_object, "box");
+    seen.push_back(validation::name_of(simulation.tool().tool));
   }
   EXPECT_EQ(seen, (std::vector<std::string>{"direct", "ray", "spring", "spring_fork"}));
 }
@@ -373,11 +373,11 @@ TEST(TwoHands, EachHasAForkOfItsOwn) {
     simulation.push_button(0.5 * static_cast<double>(hand), true, hand);
   }
   simulation.advance(5.0);
-  ASSERT_EQ(simulation.fork(0).held_object, "heavy");
-  ASSERT_EQ(simulation.fork(1).held_object, "light");
+  ASSERT_EQ(simulation.tool(0).held_object, "heavy");
+  ASSERT_EQ(simulation.tool(1).held_object, "light");
   // k ∝ m / L, and of one size L ∝ m^(1/6).
   const double ratio = std::pow(100.0, 5.0 / 6.0);
-  EXPECT_NEAR(simulation.fork(0).stiffness.stretch / simulation.fork(1).stiffness.stretch, ratio, 0.01 * ratio);
+  EXPECT_NEAR(simulation.tool(0).stiffness.stretch / simulation.tool(1).stiffness.stretch, ratio, 0.01 * ratio);
   const Vector3d heavy = object(simulation, "heavy").X_WO.translation();
   ForkChange same;
   same.damping_ratio = {1.0, 1.0, 1.0};
@@ -385,10 +385,10 @@ TEST(TwoHands, EachHasAForkOfItsOwn) {
   simulation.advance(5.5);
   EXPECT_LT((object(simulation, "heavy").X_WO.translation() - heavy).norm(), 1e-9);
   ForkChange stiffer;
-  stiffer.stretch_stiffness = 5.0 * simulation.fork(1).stiffness.stretch;
+  stiffer.stretch_stiffness = 5.0 * simulation.tool(1).stiffness.stretch;
   simulation.change(stiffer, 1);
   EXPECT_LT((object(simulation, "heavy").X_WO.translation() - heavy).norm(), 1e-9);
-  EXPECT_NEAR(simulation.fork(0).stiffness.stretch / simulation.fork(1).stiffness.stretch, ratio / 5.0, 0.002 * ratio);
+  EXPECT_NEAR(simulation.tool(0).stiffness.stretch / simulation.tool(1).stiffness.stretch, ratio / 5.0, 0.002 * ratio);
 }
 
 }  // namespace

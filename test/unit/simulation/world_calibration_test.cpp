@@ -34,7 +34,7 @@ tools::ToolState at_rest(const scene::Scene& scene, const std::string& name, con
   const RigidTransform hand = make_transform(Quaterniond(math::exp_so3(turn)), Vector3d(0.0, 0.0, 1.0));
   for (const double t : {0.0, 0.1}) simulation.push_stylus({t, hand});
   simulation.advance(6.0);
-  return simulation.fork();
+  return simulation.tool();
 }
 
 TEST(WorldCalibration, TheForkShowsTheWeightInEveryShippedScene) {
@@ -99,7 +99,7 @@ TEST(WorldCalibration, ThreeHundredVirtualKilogramsAreLiftedByAPullOfFortyCentim
   int rejected = 0;
   for (double t = 0.02; t < 5.0; t += 0.02) rejected += simulation.advance(t).steps_rejected;
   EXPECT_NEAR(object(simulation, "three_hundred").X_WO.translation().z(), 0.04 + 0.4 - 0.3 * 0.2, 2e-3);
-  EXPECT_NEAR(simulation.fork().stretch, 0.3 * 0.2, 1e-4);
+  EXPECT_NEAR(simulation.tool().stretch, 0.3 * 0.2, 1e-4);
   EXPECT_EQ(rejected, 0);
 }
 
@@ -113,7 +113,7 @@ TEST(WorldCalibration, TheForkStaysAndComesBack) {
   simulation.push_button(0.0, true);
   simulation.advance(4.0);
   EXPECT_EQ(simulation.fork_settings().stiffness.stretch, stiffness);
-  EXPECT_NEAR(simulation.fork().stretch, 0.3 * 0.2 * 10.0 / 300.0, 1e-5);
+  EXPECT_NEAR(simulation.tool().stretch, 0.3 * 0.2 * 10.0 / 300.0, 1e-5);
   ForkChange change;
   change.stretch_stiffness = 0.5 * stiffness;
   simulation.change(change, 0);

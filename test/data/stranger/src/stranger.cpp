@@ -16,7 +16,7 @@ int main(int, char** argv) {
   }
   simulation.advance(10.0);
   ForkState message;
-  message.held_object = simulation.fork().held_object;
-  message.stretch = simulation.fork().stretch;
+  message.held_object = simulation.tool().held_object;
+  message.stretch = simulation.tool().stretch;
   std::cout << "held_object: " << message.held_object << "\nstretch: " << message.stretch << "\n";
 }
