@@ -1,6 +1,7 @@
 #include "contact_rows.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -24,6 +25,14 @@ bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b,
 bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows) {
   return row.compliance > 0.0 &&
          std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return r.point.other == row.point.other; });
+}
+
+void keep_met(const std::vector<ContactRow>& met, std::vector<ContactRow>& seen) {
+  std::copy_if(met.begin(), met.end(), std::back_inserter(seen), [&](const ContactRow& one) {
+    return std::none_of(seen.begin(), seen.end(), [&](const ContactRow& row) {
+      return row.point.other == one.point.other && row.point.n_W.dot(one.point.n_W) >= 0.9;
+    });
+  });
 }
 
 Matrix3d axes_of(const ContactRow& row) {

@@ -17,6 +17,10 @@ inline bool has_impulse(const ContactRow& row) { return row.impulse_W != Vector3
 /// Returns whether a row is compliant and there is a contact with the same other body.
 bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows);
 
+/// Adds to the rows seen with a body pushed in those that it has met and that are not among them: past an edge, it may
+/// touch other faces alone so deep.
+void keep_met(const std::vector<ContactRow>& met, std::vector<ContactRow>& seen);
+
 /// Axes [normal, across, across] of a contact, in world.
 Matrix3d axes_of(const ContactRow& row);
 /// Motion of a contact's point along its axes per motion of the body.

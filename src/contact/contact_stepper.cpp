@@ -51,9 +51,7 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
   std::vector<ContactRow> seen;
   for (const ContactRow& row : before) {
     const Vector3d& n = row.point.n_W;
-    const bool known =
-        std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > 0.99; });
-    if (known) continue;
+    if (std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > 0.99; })) continue;
     directions.push_back(n);
     RigidTransform pushed = X_WO;
     pushed.translation() -= depth * n;
@@ -342,6 +340,7 @@ bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRo
   }
   if (!met) return false;
   refresh(body, rows, landing_depth, outcome);
+  keep_met(touched, rows);
   collide(body, rows, Bounce::of_materials, std::max(h, landing_time), substep);
   return true;
 }

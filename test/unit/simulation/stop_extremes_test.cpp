@@ -98,6 +98,35 @@ TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
   }
 }
 
+/// Pressed onto a ledge that reaches under it by so little that the way out sideways is the shorter one as soon as it
+/// is in it: it lies on the ledge under the load, or turns off it, but does not hang there without a force.
+TEST(StopExtremes, OnALedgeOfAFractionOfAMillimetreItRestsOrTurnsOff) {
+  constexpr double height = 0.5, above = 5e-3, lowered = 0.01, k = 1e4;
+  for (const double tilt : {0.0, 0.02, 0.3}) {
+    for (const double ledge : {9e-4, 3e-4, 5e-5}) {
+      scene::Body held = box("box", Vector3d::Constant(edge), 1.0, Vector3d(0, 0, height));
+      held.X_WO.linear() = Eigen::AngleAxisd(tilt, Vector3d::UnitY()).toRotationMatrix();
+      const Vector3d corner = held.X_WO * Vector3d(0.5 * edge, 0.0, -0.5 * edge);  // the lowest
+      const Vector3d shelf = corner + Vector3d(0.05 - ledge, 0.0, -0.05 - above);
+      SimulationSettings set;
+      set.fork.stiffness = {k, k, 0.01 * k};
+      set.grasp.object = "box";
+      Simulation s(scene_of({held, box("shelf", Vector3d(0.1, 1.0, 0.1), 0.0, shelf)}, scene::ContactMode::stop), set);
+      const Vector3d start(0, 0, height + set.fork.length), end = start - lowered * Vector3d::UnitZ();
+      push_move(s, 0.0, 0.5, start, end);
+      push_move(s, 0.52, 1.0, end, end);
+      double hardest = 0.0;
+      for (int i = 1; i <= 50; ++i) {
+        EXPECT_EQ(s.advance(0.02 * i).steps_blocked, 0) << tilt << " " << ledge << " " << i;
+        double force = 0.0;
+        for (const contact::ContactState& c : s.contacts()) force += c.force;
+        hardest = std::max(hardest, force);
+      }
+      EXPECT_GT(hardest, 9.81) << tilt << " " << ledge;  // its weight alone
+    }
+  }
+}
+
 /// Grasped while it touches bench and neighbour, or penetrates the neighbour by `overlap`: it is separated without
 /// being ejected.
 TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
