@@ -240,20 +240,26 @@ bool StepControl::step_in_halves(Span& span, double t, double h, int level, bool
   const bool last = failed || level == most_halvings || !integrator_->stiffly_stable();
   const double energy = std::max(span.memory.energy, tried.energy);
   // The last may run into debt, which later ones pay: what comes in its place errs by far more.
-  const double saved = span.memory.energy_saved, credit = last ? saved + energy_reserve : std::max(saved, 0.0);
-  const double share = energy_drift_rate * (h + credit) * energy;
-  const auto fine = [&] {
-    if (integrator_->energy() == dynamics::Integrator::Energy::conserved) return tried.energy_error <= share;
-    return integrator_->energy() != dynamics::Integrator::Energy::dissipated ||
-           energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state) <= share;
-  };
-  bool good = tried.solved && fine();
-  if (good) {
-    const double estimated = tried.energy_error;
-    weigh(span, t, h, state, tried);
-    good = tried.energy_error == estimated || fine();
+  const double saved = span.memory.energy_saved, debt = saved + energy_reserve;
+  const auto share = [&](double credit) { return energy_drift_rate * (h + credit) * energy; };
+  const double allowed = share(last ? debt : std::max(saved, 0.0));
+  const dynamics::Integrator::Energy kind = integrator_->energy();
+  const bool conserved = kind == dynamics::Integrator::Energy::conserved;
+  double found = tried.solved && conserved ? tried.energy_error : 0.0;
+  if (tried.solved && kind == dynamics::Integrator::Energy::dissipated) {
+    found = energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state);
   }
-  if (!good && !last) {
+  bool good = tried.solved && found <= allowed;
+  if (good) {
+    weigh(span, t, h, state, tried);
+    if (conserved) found = tried.energy_error;
+    good = found <= allowed;
+  }
+  // With the shortest steps the error falls as their number to the order of the method.
+  const auto hopeless = [&] {
+    return std::ldexp(found, -integrator_->order() * (most_halvings - level)) > share(debt);
+  };
+  if (!good && !last && !hopeless()) {
     ++span.report.substeps;
     good = step_in_halves(span, t, 0.5 * h, level + 1, false, state);
     return step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, !good, state) || good;

@@ -199,6 +199,41 @@ TEST(StepControl, WhereNoShortStepWorksThoseOfTheFallbackGrow) {
   EXPECT_EQ(later.steps, 7);
 }
 
+/// A method of first order that should lose energy, and gains this share of it in a step of 1 s.
+class GainsEnergy final : public Integrator {
+ public:
+  explicit GainsEnergy(double share) : share_(share) {}
+  int order() const override { return 1; }
+  bool stiffly_stable() const override { return true; }
+  Energy energy() const override { return Energy::dissipated; }
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion&, double, double h, StrainState& state) override {
+    state.q_dot *= std::sqrt(1.0 + share_ * h * h);
+    return {body.zero_state().q, 0.0, body.zero_state().q, true};
+  }
+
+ private:
+  double share_;
+};
+
+/// Eight times as many steps gain an eighth of it. Where even the 64th part of it is too much, no part is tried.
+TEST(StepControl, HalvesNoStepForAnEnergyThatNoHalvingTakesFromIt) {
+  std::mt19937 random(1);
+  const Case c = random_case("linear", 1.0, 1.0, random);
+  const motion::MotionSegment rest(RigidTransform::Identity());
+  const auto span = [&](double share) {
+    const StepControl control(std::make_unique<GainsEnergy>(share));
+    StepControl::Memory memory;
+    StrainState state{c.held.zero_state().q, 1e3 * c.held.units()};
+    return control.advance(c.held, rest, 0.0, 1.0, state, memory);
+  };
+  const ControlledStep halved = span(1e-3), hopeless = span(1.0);
+  EXPECT_EQ(halved.steps, 8);
+  EXPECT_EQ(halved.fallback, 0);
+  EXPECT_EQ(hopeless.steps, 1);
+  EXPECT_EQ(hopeless.fallback, 1);
+  EXPECT_EQ(hopeless.substeps, 0);
+}
+
 /// Steps that end beyond the rod's range, with a strain and with rates that come from nothing.
 class LeavesTheRange final : public Integrator {
  public:
