@@ -120,10 +120,9 @@ StrainState rodas_step(const HeldBody& body, const motion::FrameMotion& handle, 
   const auto acceleration = [&](double c, const rod::StrainVector& q, const rod::StrainVector& v) {
     return c == 0.0 ? start.q_ddot : body.acceleration(body.forcing(handle, t + c * h), q, v);
   };
-  const double dt = time_difference * h;
   const rod::StrainVector by_time = (-3.0 * start.q_ddot + 4.0 * acceleration(time_difference, from.q, from.q_dot) -
                                      acceleration(2.0 * time_difference, from.q, from.q_dot)) /
-                                    (2.0 * dt);
+                                    (2.0 * time_difference * h);
   StrainState to = from;
   rodas_step(start.motion, h, acceleration, by_time, to.q, to.q_dot);
   return to;

@@ -1,6 +1,7 @@
 #include "spring_workbench/dynamics/linearised_motion.h"
 
 #include "spring_workbench/math/by_size.h"
+#include "spring_workbench/rod/difference_steps.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -22,7 +23,8 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
 LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const HandleForcings& moment,
                                    const StrainState& state, const rod::StrainVector& q_ddot)
     : LinearisedMotion(body, handle, state.q) {
-  const rod::StrainVector units = body.units();
+  const rod::StrainVector dq = rod::difference_steps(strain_difference * body.units(), state.q),
+                          dv = rod::difference_steps(rate_difference * body.units(), state.q_dot);
   math::by_size(body.size(), [&](auto size) {
     constexpr int n = decltype(size)::value;
     for (int first = 0; first < 2 * n; first += math::pack_size) {  // strains, then rates: one in each lane
@@ -33,7 +35,7 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
       }
       for (int k = 0; k < math::pack_size && first + k < 2 * n; ++k) {
         const int j = first + k;
-        j < n ? q[j][k] += strain_difference * units[j] : q_dot[j - n][k] += rate_difference * units[j - n];
+        j < n ? q[j][k] += dq[j] : q_dot[j - n][k] += dv[j - n];
       }
       body.acceleration<n>(moment, q, q_dot, moved);
       for (int k = 0; k < math::pack_size && first + k < 2 * n; ++k) {

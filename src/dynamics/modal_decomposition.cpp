@@ -6,6 +6,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/math/symmetric_modes.h"
+#include "spring_workbench/rod/difference_steps.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -13,11 +14,9 @@ namespace {
 /// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, which are exact for
 /// the springs.
 rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
-  const int n = body.size();
-  rod::StrainMatrix stiffness(n, n);
-  const rod::StrainVector rest = rod::StrainVector::Zero(n);
-  const rod::StrainVector moved = 1e-5 * body.units();
-  for (int j = 0; j < n; ++j) {
+  rod::StrainMatrix stiffness(q.size(), q.size());
+  const rod::StrainVector rest = 0.0 * q, moved = rod::difference_steps(1e-5 * body.units(), q);
+  for (int j = 0; j < q.size(); ++j) {
     rod::StrainVector up = q, down = q;
     up[j] += moved[j];
     down[j] -= moved[j];

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "constants.h"
+#include "spring_workbench/rod/difference_steps.h"
 
 namespace spring_workbench::stepping {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 rod::StrainMatrix slope(const dynamics::HeldBody& held,
                         const std::function<rod::StrainVector(const rod::StrainVector&)>& force,
                         const rod::StrainVector& q) {
-  const rod::StrainVector dq = strain_difference * held.units();
+  const rod::StrainVector dq = rod::difference_steps(strain_difference * held.units(), q);
   rod::StrainMatrix slope(q.size(), q.size());
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     rod::StrainVector ahead = q, behind = q;

@@ -7,6 +7,7 @@
 #include "constants.h"
 #include "energy_account.h"
 #include "spring_workbench/dynamics/linearised_motion.h"
+#include "spring_workbench/rod/difference_steps.h"
 
 namespace spring_workbench::stepping {
 namespace {
@@ -19,7 +20,7 @@ double range_used(const dynamics::HeldBody& body, double t, const rod::StrainVec
 
 rod::StrainVector range_slope(const dynamics::HeldBody& body, double t, const rod::StrainVector& q) {
   rod::StrainVector g(q.size());
-  const rod::StrainVector dq = range_difference * body.units();
+  const rod::StrainVector dq = rod::difference_steps(range_difference * body.units(), q);
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     rod::StrainVector up = q, down = q;
     up[i] += dq[i];

@@ -166,6 +166,29 @@ INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator,
                          testing::ValuesIn(test_support::equation_of_motion_integrator_names()),
                          [](const auto& instance) { return instance.param; });
 
+/// The equation of a stretch alone is linear: a step from a strain so far off that the differences of one near zero are
+/// lost in its rounding is as much longer as the strain is.
+TEST(StiffIntegrator, AStretchFarOffMovesAsOneLessFarOff) {
+  for (const char* name : {"exponential", "implicit_euler"}) {
+    for (unsigned trial = 0; trial < 10; ++trial) {
+      std::mt19937 random(trial);
+      Case c = random_case("linear", 0.1, 1.0, random);
+      c.held.set_dofs({true, false, false}, 0.0, 0.05, c.held.zero_state());
+      const auto moved = [&](double far) -> Eigen::Vector2d {
+        StrainState state = c.held.zero_state();
+        state.q[0] = far;
+        EXPECT_TRUE(test_support::make_integrator(name)->step(c.held, c.hand, 0.1, 0.002, state).converged)
+            << name << " " << trial << " " << far;
+        return Eigen::Vector2d(state.q[0], state.q_dot[0]) / far;
+      };
+      const Eigen::Vector2d less_far = moved(1e6);
+      for (const double far : {1e9, 1e13, 1e20}) {
+        EXPECT_LT((moved(far) - less_far).norm(), 1e-4 * less_far.norm()) << name << " " << trial << " " << far;
+      }
+    }
+  }
+}
+
 /// x, ẋ at `t` [s] of ẍ + 2 ζ ω ẋ + ω² x = α + β t from rest at zero, in long double.
 Eigen::Matrix<long double, 2, 1> oscillator(long double omega, long double zeta, long double alpha, long double beta,
                                             long double t) {
