@@ -45,7 +45,8 @@ Distance between(const HeldBody& held, const HandleForcing& at, const StrainStat
 
 struct Found {
   int steps = 0, unbounded = 0, below = 0, locally_below = 0, runs = 0, runs_unbounded = 0;
-  std::vector<double> over, locally_over, over_at_end;
+  int estimated = 0, well_estimated = 0;  ///< steps; those with an estimate within a factor of ten
+  std::vector<double> over, locally_over;
 };
 
 double median(std::vector<double> values) {
@@ -92,6 +93,11 @@ void run_one(int run, double duration, const std::string& integrator, Found& fou
       if (memory.error_bound < of_run.position) ++found.below;
     }
     if (of_run.angle > 10.0 * rounding && memory.angle_bound < of_run.angle) ++found.below;
+    if (of_step.position > rounding) {
+      const double ratio = step.position_error / of_step.position;
+      ++found.estimated;
+      if (ratio > 0.1 && ratio < 10.0) ++found.well_estimated;
+    }
     if (of_step.position > rounding && step.bounds.local) {
       found.locally_over.push_back(*step.bounds.local / of_step.position);
       if (*step.bounds.local < of_step.position) ++found.locally_below;
@@ -115,12 +121,13 @@ TEST(ErrorBound, IsNotBelowTheErrorOfRunsAndSteps) {
   EXPECT_LE(found.runs_unbounded, 0.05 * found.runs);
   EXPECT_LT(median(found.over), 30.0);
   EXPECT_LT(median(found.locally_over), 30.0);
+  EXPECT_GT(found.well_estimated, 0.9 * found.estimated);
   std::printf(
       "%d runs, %d steps: %d and %d below; %d steps and %d runs without; medians %.3g and %.3g, least %.3g and "
-      "%.3g\n",
+      "%.3g; %d of %d estimates within a factor of ten\n",
       found.runs, found.steps, found.below, found.locally_below, found.unbounded, found.runs_unbounded,
       median(found.over), median(found.locally_over), *std::min_element(found.over.begin(), found.over.end()),
-      *std::min_element(found.locally_over.begin(), found.locally_over.end()));
+      *std::min_element(found.locally_over.begin(), found.locally_over.end()), found.well_estimated, found.estimated);
 }
 
 class BoundOf : public testing::TestWithParam<std::string> {};
