@@ -180,7 +180,7 @@ simulation::AdvanceReport Feed::advance_to(double t) {
 
 void Feed::predict(double t, simulation::Simulation& copy) const {
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-    if (const auto sample = hands_[hand].ahead.predict(t)) copy.push_stylus(*sample, hand);
+    for (const motion::PoseSample& sample : hands_[hand].ahead.continuation(t)) copy.push_stylus(sample, hand);
   }
 }
 

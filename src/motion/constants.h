@@ -32,13 +32,32 @@ constexpr double no_offset = 1e-9;
 /// Distance from the goal at which a follower has arrived [m, rad]. Test:
 /// PoseFollower.ReachesEveryGoalWithoutOvershootAndNeverFasterThanAHand at 0.1.
 constexpr double arrived = 1e-9;
-/// Window before the newest sample in which the parabola is fitted [s]. If longer, there is less noise but more lag;
-/// this is the best value between 0.1 and 0.2 for recorded hands. Test: PosePredictor.ForgetsWhatIsOlderThanItsWindow
-/// at 0.2.
-constexpr double parabola_window = 0.14;
-/// Smallest ratio of the determinant of the fit to the product of its diagonal; samples that are closer together
-/// determine no parabola. Test: PosePredictor.FollowsLineAndParabolaExactly at 1.
-constexpr double min_spread = 1e-6;
+/// Time in which the weight of a sample in the fastest fitted parabola decays [s]; in each further one it is twice as
+/// long. If longer, there is less noise but more lag in fast motions. Test: PosePredictor.IsGoodWithAndWithoutNoise at
+/// 0.1.
+constexpr double shortest_fit = 0.01;
+/// The same in intervals between samples, at least. If less, the samples of a slow stream have weights too small to
+/// determine a parabola; if more, it is followed with more lag. Test: PosePredictor.FollowsASlowStream at 0.
+constexpr double least_intervals = 0.5;
+/// Age in multiples of that time beyond which a sample is not fitted. If larger, fits take longer, for samples without
+/// weight. Test: PosePredictor.ForgetsWhatIsOlderThanItsWindow at 12.
+constexpr double forgotten = 6.0;
+/// Least time between two samples that are fitted [s], except the newest one. If shorter, fits of fast streams take
+/// longer; if longer, they are more noisy. Test: PosePredictor.FitsSkipSamplesOfAFastStream at 0.
+constexpr double least_spacing = 0.005;
+/// Time in which the weight of an error of the models decays [s]. If shorter, the weights of the models are noisy; if
+/// longer, they follow changes of the motion more slowly. Test: PosePredictor.IsGoodAgainSoonAfterAShake at 10.
+constexpr double error_memory = 1.0;
+/// How far ahead the models are compared with the samples that came later [s]. Test:
+/// PosePredictor.IsGoodWithAndWithoutNoise at 0.3.
+constexpr double compared_ahead = 0.02;
+/// Variance that is added to that of each model's errors, relative to it. If less, the weights of models that have made
+/// similar errors are large and opposite; if more, a worse model keeps more weight. Test:
+/// PosePredictor.IsGoodSoonAfterARestart at 0.
+constexpr double shrinkage = 0.1;
+/// Error of the models that counts as none [m, rad]. If larger, all have the same weight in slow motions. Test:
+/// PosePredictor.FollowsLineAndParabolaExactly at 0.01.
+constexpr double no_error = 1e-6;
 /// Time between two samples of a head after which its motion restarts [s]. If longer, the view keeps moving after a
 /// dropout. Test: HeadMotion.RestsAfterADropoutAndAJumpOfTime at 10.
 constexpr double head_dropout = 0.5;

@@ -80,8 +80,8 @@ class Feed {
   double committed() const;
   /// Advances the simulation to `t`. A hand that is lost before `t` releases its object at the time of the loss.
   simulation::AdvanceReport advance_to(double t);
-  /// Gives each hand of `copy`, a copy of the simulation, its predicted pose at `t` if `t` is later than its newest
-  /// sample.
+  /// Gives each hand of `copy`, a copy of the simulation, the samples by which it follows its predicted motion up to
+  /// time `t`; they also determine its velocity at the newest true sample.
   void predict(double t, simulation::Simulation& copy) const;
   /// Returns the time since the newest sample of any hand arrived [s].
   double time_since_arrival(const LocalTime& now) const;

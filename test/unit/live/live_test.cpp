@@ -146,7 +146,7 @@ TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
   for (int k = 0; k < 60; ++k) {
     bench.commit(bench.sample(k, k < 30), interval * k);
     bench.show(0.0, interval * k);
-    EXPECT_EQ(bench.shown().time, interval * k);
+    EXPECT_NEAR(bench.shown().time, interval * k, 1e-12);
     EXPECT_LT((bench.shown().tools.front().X_WH.translation() - hand_at(interval * k)).norm(), 1e-12) << k;
   }
 }
@@ -239,7 +239,7 @@ TEST(LookAhead, ErrorsAreThoseOfTheDisplayedPoses) {
     }
     largest[further] = bench.largest_error;
     EXPECT_LE(bench.runner.prediction_error_99(), bench.largest_error);
-    EXPECT_GT(bench.runner.prediction_error_99(), 0.1 * bench.largest_error);
+    EXPECT_GT(bench.runner.prediction_error_99(), 0.05 * bench.largest_error);
   }
   EXPECT_GT(largest[0], 1e-9);
   EXPECT_LT(largest[0], 1e-4);
