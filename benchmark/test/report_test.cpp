@@ -85,7 +85,7 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
       {"--shard 0/3", {"--shard", "0/3", "I/N"}},
       {"--shard 4/3", {"--shard", "4/3", "I/N"}},
       {"--shard 1/2/3", {"--shard", "1/2/3", "I/N"}},
-      {"--shard 1/2 --out /tmp", {"--shard, --out", "both", "one of the two"}},
+      {"--shard 1/2 --out /tmp", {"--shard, --out", "both", "one without the other"}},
       {"--shard 1/2 --queue", {"--queue", "missing", "folder"}},
       {"--queue .", {"--queue", ".", "together with --shard"}},
       {"--commit", {"--commit", "missing", "name"}},

@@ -159,13 +159,15 @@ TEST(Settings, BadInputNamesPlaceKeyValueAndRuleAndChangesNothing) {
 }
 
 TEST(Settings, UnknownKeysAreRefusedNamingTheKnown) {
-  for (const std::string yaml : {"fork: 3", "step: {size: 0.01}", "rate: 50"}) {
+  for (const std::string yaml : {"step: {size: 0.01}", "rate: 50"}) {
     SimulationSettings settings;
     const std::string message = refusal(yaml, settings);
     EXPECT_EQ(message.rfind("some.yaml:1: ", 0), 0u) << message;
     EXPECT_TRUE(contains(message, "unknown key; known keys are ")) << message;
     for (const SettingDescription& d : setting_descriptions()) EXPECT_TRUE(contains(message, d.key));
   }
+  SimulationSettings settings;
+  EXPECT_EQ(refusal("fork: 3", settings), "some.yaml:1: fork: must be a map, e.g. with the key fork.length");
 }
 
 TEST(Settings, AMisspeltKeyIsRefusedNamingTheNearest) {
