@@ -62,7 +62,7 @@ class BadStart(unittest.TestCase):
                 ({"scene": SCENE, "rate": "fast"}, ["rate", "fast"]),
                 ({"scene": SCENE, "fork": {"stiffness": {"bend": math.nan}}}, ["fork.stiffness.bend", "nan"]),
                 ({"scene": SCENE, "fork": {"stiffness": {"bend": -5.0}}}, ["fork.stiffness.bend", "-5"]),
-                ({"scene": SCENE, "fork": 3}, ["fork", "unknown"]),
+                ({"scene": SCENE, "fork": 3}, ["fork", "must be a map"]),
                 ({"scene": SCENE, "grasp": {"object": "teapot"}}, ["grasp.object", "teapot"]),
             ],
         )
