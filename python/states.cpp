@@ -77,7 +77,7 @@ void bind_tool(py::module_& module) {
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
       .def_readonly("error_bound", &ToolState::error_bound,
                     "Bound of the error of integration in position, since the grasp or the last step without a bound "
-                    "[m]; None if the setting `error_bound` is off or, e.g., in contact.")
+                    "[m], rounding excluded; None if the setting `error_bound` is off or, e.g., in contact.")
       .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,

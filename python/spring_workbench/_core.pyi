@@ -148,8 +148,8 @@ class ToolState:
         """Kinetic energy of the held object [J]."""
     @property
     def error_bound(self) -> Optional[float]:
-        """Bound of the error of integration in position, since the grasp or the last step without a bound [m]; None if
-        the setting `error_bound` is off or, e.g., in contact."""
+        """Bound of the error of integration in position, since the grasp or the last step without a bound [m],
+        rounding excluded; None if the setting `error_bound` is off or, e.g., in contact."""
     @property
     def weight(self) -> float:
         """Upward force on the object divided by g [vkg]."""
