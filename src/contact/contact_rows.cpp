@@ -19,7 +19,7 @@ double extent(const RigidTransform& X0, const RigidTransform& X1, double radius)
 }
 
 bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within) {
-  return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < within;
+  return a.other == b.other && a.n_W.dot(b.n_W) > one_normal && (a.p_W - b.p_W).norm() < within;
 }
 
 bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows) {
@@ -30,7 +30,7 @@ bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows) 
 void keep_met(const std::vector<ContactRow>& met, std::vector<ContactRow>& seen) {
   std::copy_if(met.begin(), met.end(), std::back_inserter(seen), [&](const ContactRow& one) {
     return std::none_of(seen.begin(), seen.end(), [&](const ContactRow& row) {
-      return row.point.other == one.point.other && row.point.n_W.dot(one.point.n_W) >= 0.9;
+      return row.point.other == one.point.other && row.point.n_W.dot(one.point.n_W) > one_normal;
     });
   });
 }

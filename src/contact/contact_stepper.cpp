@@ -51,14 +51,15 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
   std::vector<ContactRow> seen;
   for (const ContactRow& row : before) {
     const Vector3d& n = row.point.n_W;
-    if (std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > 0.99; })) continue;
+    if (std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > one_normal; }))
+      continue;
     directions.push_back(n);
     RigidTransform pushed = X_WO;
     pushed.translation() -= depth * n;
     seen.clear();
     add_contacts(body.index(), pushed, touching, seen, outcome);
     for (ContactRow& row_seen : seen) {
-      if (row_seen.point.n_W.dot(n) < 0.9) continue;
+      if (row_seen.point.n_W.dot(n) < one_normal) continue;
       row_seen.gap += depth * row_seen.point.n_W.dot(n);
       row_seen.point.depth = -row_seen.gap;
       rows.push_back(row_seen);
@@ -96,7 +97,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
       // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out. Compliant
       // materials push it out with the force of their law.
       const bool complies = work[i].compliance > 0.0;
-      const double left = complies ? slack : std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
+      const double left = complies ? slack : std::max(slack, -starts[i].gap * std::exp(-h / scene::recovery_time));
       work[i].gap += left;
       if (complies) work[i].gap += depths[i];
       worst = std::max(worst, -work[i].gap);
@@ -334,7 +335,7 @@ bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRo
     }
     // One that the last solution has not kept open is taken as it is.
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.point.p_W - s.X.translation());
-    met = met || v.dot(row.point.n_W) < -slow_approach;
+    met = met || v.dot(row.point.n_W) < 0.0;
     known->point = row.point;
     known->gap = std::min(known->gap, row.gap);
   }

@@ -1,13 +1,8 @@
 #include "spring_workbench/dynamics/active_coordinates.h"
 
+#include "constants.h"
+
 namespace spring_workbench::dynamics {
-namespace {
-
-/// Duration of a critically damped return in time constants: exp(−45) is below the rounding error of its start.
-constexpr double return_duration = 45.0;
-
-}  // namespace
-
 ActiveCoordinates::ActiveCoordinates(int count) : count_(count) { take_modes(); }
 
 void ActiveCoordinates::take_modes() {

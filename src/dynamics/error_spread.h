@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "held_body_equation.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/exponential/collocation_step.h"
@@ -52,8 +53,6 @@ class ErrorSpread {
   using Square = typename Propagator::Square;
   using Moments = Eigen::Matrix<double, 2 * n, 2 * n>;
   static constexpr std::size_t at(int i) { return Propagator::at(i); }
-  /// Part of the change by further iterations that the bound allows for.
-  static constexpr double fraction_of_iterations = 0.5;
 
   /// Derives from the linear part and the step.
   void set(const Propagator& propagator) {

@@ -3,19 +3,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "constants.h"
 #include "spring_workbench/dynamics/linearised_motion.h"
 
 namespace spring_workbench::dynamics {
-namespace {
-
-constexpr double time_difference = 1e-4;  ///< for derivatives by time, in units of the step
-constexpr int max_newton_steps = 10;
-constexpr double newton_tolerance = 1e-13;  ///< change of the rates, relative to that over the step
-constexpr double newton_rounding = 1e-6;    ///< relative to the first change: one that grows again below it is rounding
-
-}  // namespace
-
 StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                  StrainState& state) {
   const HandleForcing end = body.forcing(handle, t + h);
@@ -56,9 +49,8 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
 namespace {
 
 /// RODASP. Stage i: u + Σ a_ij U_j at t + α_i h, and h γ_i times the derivative by time.
-constexpr int stages = 6;
-constexpr double gamma_d = 0.25;
-constexpr double alpha[stages] = {0.0, 0.75, 0.21, 0.63, 1.0, 1.0};
+constexpr double alpha[] = {0.0, 0.75, 0.21, 0.63, 1.0, 1.0};
+constexpr std::size_t stages = std::size(alpha);
 constexpr double gamma_t[stages] = {0.25, -0.5, -0.023504, -0.0362, 0.0, 0.0};
 constexpr double a_ij[stages][stages] = {
     {},
@@ -80,13 +72,13 @@ constexpr double c_ij[stages][stages] = {
 template <typename Matrix, typename Acceleration>
 void rodas_step(const LinearisedMotion& motion, double h, const Acceleration& acceleration, const Matrix& by_time,
                 Matrix& q, Matrix& v) {
-  const double d = gamma_d * h;
+  const double d = gamma_t[0] * h;  // γ_i of the first stage is γ
   const ImplicitMatrix matrix(motion, d);
   Matrix Q[stages], V[stages];
-  for (int i = 0; i < stages; ++i) {
+  for (std::size_t i = 0; i < stages; ++i) {
     Matrix q_i = q, v_i = v;
     Matrix rest_q = Matrix::Zero(q.rows(), q.cols()), rest_v = rest_q;
-    for (int j = 0; j < i; ++j) {
+    for (std::size_t j = 0; j < i; ++j) {
       q_i += a_ij[i][j] * Q[j];
       v_i += a_ij[i][j] * V[j];
       rest_q += (c_ij[i][j] / h) * Q[j];
@@ -132,8 +124,6 @@ StrainState rodas_step(const HeldBody& body, const motion::FrameMotion& handle, 
 
 StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                               StrainState& state) {
-  // A compromise between 2⁴ − 1, right for smooth motions, and 2 − 1, right for the stiffest.
-  constexpr double finer_by = 10.0;
   const StepStart begin(body, handle, t, state);
   const StrainState whole = rodas_step(body, handle, t, h, state, begin);
   const StrainState half = rodas_step(body, handle, t, 0.5 * h, state, begin);

@@ -1,18 +1,10 @@
 #include "spring_workbench/dynamics/linearised_motion.h"
 
+#include "constants.h"
 #include "spring_workbench/math/by_size.h"
 #include "spring_workbench/rod/difference_steps.h"
 
 namespace spring_workbench::dynamics {
-namespace {
-
-// Of one-sided differences, which leave half of the digits. With larger ones, methods that treat the derivatives as
-// exact lose their order if steps are short.
-constexpr double strain_difference = 3e-8;  ///< in units of the coordinate
-constexpr double rate_difference = 3e-7;    ///< in units of the coordinate [1/s]
-
-}  // namespace
-
 LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q)
     : M(body.mass_matrix(handle.t, q)) {
   const HeldBody::Springs springs = body.springs(handle, q);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "constants.h"
 #include "spring_workbench/exponential/real_modes.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
@@ -15,7 +16,7 @@ namespace {
 /// the springs.
 rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
   rod::StrainMatrix stiffness(q.size(), q.size());
-  const rod::StrainVector rest = 0.0 * q, moved = rod::difference_steps(1e-5 * body.units(), q);
+  const rod::StrainVector rest = 0.0 * q, moved = rod::difference_steps(frozen_difference * body.units(), q);
   for (int j = 0; j < q.size(); ++j) {
     rod::StrainVector up = q, down = q;
     up[j] += moved[j];

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/rod/static_deformation.h"
 
 namespace spring_workbench::dynamics {
 namespace {
-
-constexpr int collision_halvings = 8;  ///< paper, section 5
 
 /// The spring-damper of a DOF over a step.
 struct SpringDamper {

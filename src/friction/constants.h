@@ -13,32 +13,46 @@ constexpr double min_response = 1e-12;
 /// less exact where bodies hardly move, as in a short step. Test: ContactProblem.AShortStepIsSolvedAsWellAsALongOne
 /// at 1.
 constexpr double sufficient_share = 0.01;
-/// Gauss–Seidel iterations between two checks of the residual. Fewer: all contacts are solved together although
-/// iterations would do. Test: ContactProblem.AnEvenRowOfBoxesTakesIterationsAlone at 1.
-constexpr int check_iterations = 10;
+/// Gauss–Seidel iterations, and alternations, between two checks of the residual. Fewer: all contacts are solved together
+/// although iterations would do. Test: ContactProblem.AnEvenRowOfBoxesTakesIterationsAlone at 1.
+constexpr int check_every = 10;
 /// Ratio by which these iterations must reduce the residual for as many more to follow, and by which loads that do not
 /// solve the problem must reduce it to be taken. Larger: iterations that hardly converge are continued, and infeasible
 /// problems get large loads. Test: ContactProblem.WallsThatLeaveNoRoomAreNotPressedApart at 1.
 constexpr double worthwhile_reduction = 0.3;
 /// Number of bodies above which factorising costs more than the finer residual is worth. Test: none: costs alone.
 constexpr std::size_t max_bodies_factorised = 200;
-/// Alternations for the finer residual, and for the one that is sufficient; alternations between two checks of the
-/// residual, and between two changes of the penalty; depth of the Anderson acceleration. Fewer: Newton's method, which
-/// factorises in each iteration, is needed more often. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
-constexpr int max_alternations = 60, max_alternations_unsolved = 120, check_every = 5, penalty_every = 20,
-              anderson_depth = 5;
-/// Ratio of the primal to the dual residual above which the penalty is adapted; growth of an accelerated step above
-/// which it is discarded. Larger: slower convergence. Test: ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at
-/// 1e9.
-constexpr double penalty_imbalance = 5.0, divergence_ratio = 1.5;
-/// Penalty of Newton's method for contacts whose mean response is scaled to 1: initial value, growth from one set of
-/// loads to the next, largest value; ratio of successive residuals above which a round counts as stalled. Test:
+/// Largest number of alternations. Fewer: Newton's method, which factorises in each iteration, is needed more often.
+/// Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
+constexpr int max_alternations = 100;
+/// Alternations between two changes of the penalty. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 1000.
+constexpr int penalty_every = 20;
+/// Depth of the Anderson acceleration. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 1.
+constexpr int anderson_depth = 5;
+/// Ratio of the primal to the dual residual above which the penalty is adapted. Larger: slower convergence. Test:
+/// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1e9.
+constexpr double penalty_imbalance = 5.0;
+/// Growth of an accelerated step above which it is discarded. Test:
+/// ContactProblem.AHeavyCubeOnALightOneSharesItsWeightOut at 0.1.
+constexpr double divergence_ratio = 1.5;
+/// First penalty of Newton's method, for contacts whose mean response is scaled to 1. Test:
 /// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1e-9.
-constexpr double initial_penalty = 100.0, penalty_growth = 10.0, max_penalty = 1e10, stalled_ratio = 0.99;
-/// Sets of loads about which Newton's method linearises; successive stalled rounds after which the problem counts as
-/// infeasible, as between walls that leave no room; iterations about each set in which the residual does not fall;
-/// halvings of each iteration's step. Test: ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 0.
-constexpr int max_rounds = 20, max_stalled_rounds = 8, max_newton_iterations = 20, max_halvings = 8;
+constexpr double initial_penalty = 100.0;
+/// Its growth from one set of loads to the next. Test: ContactProblem.RandomContactsKeepCoulombsLaw at 1.
+constexpr double penalty_growth = 10.0;
+/// Its largest value. Test: ContactProblem.RandomContactsKeepCoulombsLaw at 100.
+constexpr double max_penalty = 1e10;
+/// Sets of loads about which Newton's method linearises. Test: ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre
+/// at 0.
+constexpr int max_rounds = 20;
+/// Successive sets that reduce no residual after which the problem counts as infeasible, as between walls that leave no
+/// room. Test: ContactProblem.RandomContactsKeepCoulombsLaw at 1.
+constexpr int max_stalled_rounds = 8;
+/// Iterations about each set in which the residual does not fall. Test: ContactProblem.RandomContactsKeepCoulombsLaw at
+/// 1.
+constexpr int max_newton_iterations = 20;
+/// Halvings of each iteration's step. Test: ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 0.
+constexpr int max_halvings = 8;
 /// Share of the residual that a step of Newton's method must take away, for the step to be taken whole, and for the
 /// iteration not to count. Larger: shorter steps, and fewer of them. Test:
 /// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::rod {
@@ -81,9 +82,6 @@ bool Bushing::rechart(StrainVector& q, StrainVector& q_dot) const {
   return true;
 }
 
-double Bushing::range_used(const StrainVector& q) const {
-  constexpr double largest_angle = 6.0;  // [rad]; the coordinates are singular at a full turn
-  return q.segment<3>(2).norm() / largest_angle;
-}
+double Bushing::range_used(const StrainVector& q) const { return q.segment<3>(2).norm() / largest_angle; }
 
 }  // namespace spring_workbench::rod

@@ -4,28 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/math/symmetric_modes.h"
 
 namespace spring_workbench::rod {
-namespace {
-
-constexpr double difference = 1e-6;  ///< step for numerical derivatives, as a fraction of the tip's displacement
-constexpr double digits = 1e-8;      ///< the same relative to a large strain
-constexpr double done = 1e-10;  ///< tolerance: change of the tip relative to its displacement; the next change would be
-                                ///< smaller by the factor `difference`
-constexpr double first_reach =
-    1.0;  ///< trust region at the start: largest change of the tip for which the derivative is used
-constexpr double longer = 4.0;  ///< factor by which the trust region grows after a good step
-constexpr double overshot =
-    0.5;  ///< fraction of the force along a change that may remain, with opposite sign, at its end
-constexpr int max_changes = 60;  ///< maximum number of iterations; the residual is then reported
-constexpr int max_search_halvings = 40;
-constexpr int halvings_to_stop = 52;
-constexpr double flat = 1e-12;  ///< fraction of the largest stiffness below which a stiffness counts as zero
-
-}  // namespace
-
 /// Derivative in coordinates scaled by the springs, x = √K q, so that the matrix is near the identity for small loads.
 struct StaticDeformation::Slope {
   StrainMatrix A;      ///< derivative of the scaled force with respect to the scaled coordinates
@@ -108,7 +91,7 @@ StaticDeformation::Slope StaticDeformation::slope(const StrainVector& q, const T
     for (int k = 0; k < count; ++k) {
       const int j = first + k, c = b.index[j];
       const double moved = tip.linear.col(c).norm() / length + tip.angular.col(c).norm();
-      ahead[c][k] += difference / std::max(moved, 1e-3 * length) + digits * std::abs(q[c]);
+      ahead[c][k] += tip_difference / std::max(moved, least_leverage * length) + strain_digits * std::abs(q[c]);
       s.moves[j] = c == shape_.stretch().begin ? 0.0 : moved;
     }
     const Forces there = forces(ahead);
@@ -177,15 +160,15 @@ StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const
       for (int i = 0; i < b.count; ++i) tried[b.index[i]] += change[i];
       if (!shape_.admissible(tried)) continue;
       const TipKinematics there = tip_at(tried);
-      if (!(of_block(imbalance(tried, there)).dot(change) <= overshot * std::abs(r.dot(change)))) continue;
+      if (!(of_block(imbalance(tried, there)).dot(change) <= overshoot * std::abs(r.dot(change)))) continue;
       q = tried;
       tip = there;
       went = true;
       break;
     }
-    if (!went || moved < done * (1.0 + s.moves.dot(of_block(q).cwiseAbs()))) break;
+    if (!went || moved < settled * (1.0 + s.moves.dot(of_block(q).cwiseAbs()))) break;
     const double gone = s.moves.dot(change.cwiseAbs());
-    reach = gone < 0.75 * whole ? gone : moved > reach ? longer * reach : reach;
+    reach = gone < nearly_whole * whole ? gone : moved > reach ? reach_growth * reach : reach;
   }
   return b;
 }

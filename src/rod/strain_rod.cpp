@@ -4,19 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "constants.h"
 #include "segment_rotation.h"
 #include "spring_workbench/math/quadrature.h"
 
 namespace spring_workbench::rod {
 namespace {
-
-constexpr int max_nodes = 8;               ///< maximum number of quadrature nodes per segment
-constexpr double angle_per_segment = 2.5;  ///< [rad]; tip and Jacobian are accurate to 1e-10 up to this angle
-constexpr double wave_of_six = 1.6;        ///< largest wave() for which six nodes are as accurate
-constexpr double wave_of_five = 0.8;       ///< largest wave() for which five nodes are as accurate
-constexpr double max_turning = 64.0;       ///< [rad]; a rod that is wound up further is not admissible
-constexpr double min_stretch =
-    0.02;  ///< fraction of the rest length; a rod that is compressed further is not admissible
 
 template <int nodes>
 const math::GaussLegendre<nodes>& rule() {

@@ -1,5 +1,6 @@
 #include "spring_workbench/rod/tip_fit.h"
 
+#include "constants.h"
 #include "spring_workbench/math/singular_values.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/square_system.h"
@@ -8,23 +9,6 @@ namespace spring_workbench::rod {
 namespace {
 
 constexpr int n = max_strain_coordinates;
-constexpr int max_iterations = 60;
-constexpr int max_fit_halvings = 12;
-/// Fraction of the remaining distance by which a step must be predicted to reduce it; otherwise the rod cannot get
-/// closer to the pose.
-constexpr double min_progress = 1e-3;
-constexpr double to_the_end = 1e-9;  ///< relative precision of a change that ends at the limit of the rod's range
-/// Change of the last iteration, relative to the rod's length or in radians. Newton's method converges quadratically,
-/// so the remaining error is below rounding.
-constexpr double last_change = 3e-8;
-/// Largest step towards the pose, relative to the rod's length or in radians.
-constexpr double farthest = 0.5;
-/// Largest deviation of a change from the one that the Jacobian predicts, relative to it; a larger one may lead to
-/// another solution.
-constexpr double max_nonlinearity = 0.5;
-/// Smallest singular value of the scaled Jacobian that counts as regular: that of a straight rod compressed to the end
-/// of its range (uncompressed: 0.1). In a direction with a smaller one, the tip is at the boundary of its workspace.
-constexpr double min_motion = 1e-3;
 
 /// Rotation vector of each lane.
 template <typename S>

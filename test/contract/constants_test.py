@@ -56,6 +56,8 @@ def faults_of(root):
             for entry in ENTRY.finditer(text):
                 entries += 1
                 test = named_test(entry["comment"])
+                if re.search(r", \w+ =", entry["value"]):
+                    faults.append(f"{inside}: {entry['name']}: one constant in each definition")
                 if re.search(r"Test: none: \w", entry["comment"].replace("\n/// ", " ")):
                     unnoticed += 1
                 elif not test:

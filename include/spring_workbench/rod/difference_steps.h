@@ -6,9 +6,6 @@ namespace spring_workbench::rod {
 
 /// Steps of finite differences about strains or rates: these ones, or more where they would be lost in the rounding of
 /// one that is far off.
-inline StrainVector difference_steps(const StrainVector& least, const StrainVector& about) {
-  constexpr double resolved = 1e-10;
-  return least.cwiseMax(resolved * about.cwiseAbs());
-}
+StrainVector difference_steps(const StrainVector& least, const StrainVector& about);
 
 }  // namespace spring_workbench::rod
