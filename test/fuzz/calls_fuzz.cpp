@@ -44,7 +44,7 @@ class Choices {
     const double value = number();
     return std::isfinite(value) ? std::clamp(value, -2.0, 2.0) : value;
   }
-  rod::PerDof per_dof() {
+  rod::PerDofChange<double> per_dof() {
     const double stretch = number(), bend = number();
     return {stretch, bend, number()};
   }
@@ -63,10 +63,7 @@ void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample&
       simulation.change(fork);
       break;
     case 1: {
-      const rod::PerDof k = next.per_dof();
-      fork.stretch_stiffness = k.stretch;
-      fork.bend_stiffness = k.bend;
-      fork.torsion_stiffness = k.torsion;
+      fork.stiffness = next.per_dof();
       simulation.change(fork, next.byte() % 2);
       break;
     }

@@ -305,11 +305,10 @@ Command random_command(std::mt19937& random) {
   if (random() % 3 > 0) command.hand = random() % 2;
   command.tool = every_tool[random() % 5];
   command.on = random() % 2 == 0;
-  if (random() % 2 == 0)
-    command.fork_change.dofs = rod::ForkDofs{random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
-  if (random() % 2 == 0) command.fork_change.stretch_stiffness = uniform(100.0, 1000.0);
-  if (random() % 2 == 0) command.fork_change.torsion_stiffness = uniform(0.1, 10.0);
-  if (random() % 3 == 0) command.fork_change.damping_ratio = rod::PerDof{0.2, 0.2, 0.2};
+  if (random() % 2 == 0) command.fork_change.dofs = {random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
+  if (random() % 2 == 0) command.fork_change.stiffness.stretch = uniform(100.0, 1000.0);
+  if (random() % 2 == 0) command.fork_change.stiffness.torsion = uniform(0.1, 10.0);
+  if (random() % 3 == 0) command.fork_change.damping_ratio = {0.2, 0.2, 0.2};
   if (random() % 4 == 0) command.dynamics_change.step = uniform(0.001, 0.004);
   if (random() % 4 == 0) command.dynamics_change.integrator = dynamics::IntegratorKind::rk4;
   return command;
@@ -410,7 +409,7 @@ TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
   bench.runner.keep_journal(true);
   Command softer;
   softer.kind = Command::Kind::settings;
-  softer.fork_change.stretch_stiffness = 300.0;
+  softer.fork_change.stiffness.stretch = 300.0;
   for (int k = 0; k < 50; ++k) {
     bench.commit(bench.sample(k, false), interval * k);
     if (k == 30) bench.runner.change("softer", softer);
@@ -419,7 +418,7 @@ TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
   Replayer replayer = replayer_of_two_boxes();
   for (Entry& entry : bench.runner.take_journal()) {
     auto* change = std::get_if<Change>(&entry.what);
-    if (change != nullptr && change->what == "softer") change->command.fork_change.stretch_stiffness = 300.1;
+    if (change != nullptr && change->what == "softer") change->command.fork_change.stiffness.stretch = 300.1;
     replayer.play(entry, [](auto&, auto&) {});
   }
   ASSERT_EQ(replayer.changes().mismatches.size(), 1u);
@@ -430,9 +429,9 @@ TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
 TEST(Journal, WordsThatAreNoCommandAreRefused) {
   Command softer;
   softer.kind = Command::Kind::settings;
-  softer.fork_change.stretch_stiffness = 300.0;
+  softer.fork_change.stiffness.stretch = 300.0;
   std::vector<std::uint64_t> words = softer.words();
-  EXPECT_EQ(Command::from(words).fork_change.stretch_stiffness, 300.0);
+  EXPECT_EQ(Command::from(words).fork_change.stiffness.stretch, 300.0);
   words.push_back(0);
   EXPECT_THROW(Command::from(words), validation::InputError);
   words.resize(words.size() - 2);

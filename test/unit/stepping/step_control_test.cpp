@@ -123,7 +123,7 @@ TEST(StepControl, GoesOnInWholeStepsWhereALoadAndTheSpringsCancel) {
     fork.damping_ratio = {1.0, 1.0, 1.0};
     c.held.set_springs(fork);
     const Vector3d F = 0.005 * stiffness * Vector3d(uniform(random), uniform(random), uniform(random));
-    c.held.set_external_wrench({F, Vector3d(0.05 * uniform(random), 0.05 * uniform(random), -0.02).cross(F)});
+    c.held.set_load({F, Vector3d(0.05 * uniform(random), 0.05 * uniform(random), -0.02).cross(F)});
     const motion::MotionSegment hand(c.held.forcing(c.hand, 0.0).X_WH);
     for (const double h : {0.02, 0.002, 0.0003}) {
       const StepControl control(test_support::make_integrator("exponential"));
