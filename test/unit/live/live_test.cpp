@@ -427,6 +427,41 @@ TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
   EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
 }
 
+/// A recorder beside another listener is connected to the two topics one after the other, and the state is noted again
+/// once it is connected to both. In either order, its recording is replayed to the same bits, but not if an entry is
+/// missing later.
+TEST(Journal, OfALateRecorderBeginsWithTheStateAfterBothConnections) {
+  for (const bool changes_first : {true, false}) {
+    Bench bench;
+    std::vector<Entry> recorded;
+    for (int k = 0; k < 80; ++k) {
+      if (k == 10 || k == 60) bench.runner.keep_journal(true);
+      bench.commit(bench.sample(k, false), interval * k);
+      if (k % 10 == 5) bench.runner.note_state();
+      if (k == 50) bench.runner.restart();
+      for (Entry& entry : bench.runner.take_journal()) {
+        const bool is_change = std::holds_alternative<Change>(entry.what);
+        if (k >= (is_change == changes_first ? 30 : 58)) recorded.push_back(std::move(entry));
+      }
+    }
+    bench.runner.note_state();
+    for (Entry& entry : bench.runner.take_journal()) recorded.push_back(std::move(entry));
+    const auto replayed = [](const std::vector<Entry>& entries) {
+      Replayer replayer = replayer_of_two_boxes();
+      for (const Entry& entry : entries) replayer.play(entry, [](auto&, auto&) {});
+      return replayer.simulation()->state_hash();
+    };
+    std::rotate(recorded.begin(), recorded.begin() + 5, recorded.end());
+    const std::vector<Entry> complete = from_first_complete(recorded);
+    EXPECT_EQ(replayed(complete), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
+    std::vector<Entry> short_of_one = recorded;
+    short_of_one.erase(std::find_if(short_of_one.begin(), short_of_one.end(), [&](const Entry& entry) {
+      return entry.index == complete[complete.size() - 10].index;
+    }));
+    EXPECT_THROW(replayed(from_first_complete(short_of_one)), validation::InputError);
+  }
+}
+
 TEST(Journal, WordsThatAreNoCommandAreRefused) {
   Command softer;
   softer.kind = Command::Kind::settings;
