@@ -24,7 +24,7 @@ SimulationRunner::RecordedChange::~RecordedChange() {
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                    const hand_input::InputSettings& input, bool simulated_time, Pace pace)
     : simulation_(scene, settings),
-      feed_(simulation_, input),
+      feed_(simulation_, input, hand_input::Feed::Prediction::on),
       ahead_(scene, settings),
       scene_(std::make_shared<const scene::Scene>(simulation_.scene())),
       task_(scene),
