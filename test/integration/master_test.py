@@ -2,6 +2,7 @@
 """A ROS master that hangs or dies under the nodes: the hand and connected clients are not affected, /diagnostics
 reports it, and the nodes can be stopped. A new master lists all of them, and a held object stays held. The test has its
 own master. MASTER_OUTAGE: duration [s]."""
+import contextlib
 import math
 import os
 import signal
@@ -65,6 +66,13 @@ class Feeder:
         return count, sorted(lag for stamp, lag in self.lags.items() if stamp <= last)
 
 
+def before_others():
+    """Lets this process run before those without real-time priority, where the host permits it: a busy processor then
+    delays neither the hand nor the node."""
+    with contextlib.suppress(PermissionError):
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
+
+
 def write_hand(path):
     """A minute: down to the box, and after a second up and in a circle with it."""
     with open(path, "w", encoding="utf-8") as file:
@@ -100,7 +108,8 @@ class Master(unittest.TestCase):
     def start_client(self, function):
         """A process of its own, since its master is another one; it does what it is asked to."""
         pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-        self.client = subprocess.Popen([sys.executable, __file__, function], env=self.environment, **pipes)
+        command = [sys.executable, __file__, function]
+        self.client = subprocess.Popen(command, env=self.environment, preexec_fn=before_others, **pipes)
         self.addCleanup(self.end, self.client)
 
     def start_master(self):
@@ -110,7 +119,7 @@ class Master(unittest.TestCase):
 
     def start(self, name, *arguments):
         command = roslib.packages.find_node("spring_workbench", name)
-        self.nodes[name] = subprocess.Popen([*command, *arguments], env=self.environment)
+        self.nodes[name] = subprocess.Popen([*command, *arguments], env=self.environment, preexec_fn=before_others)
         self.addCleanup(self.end, self.nodes[name])
 
     @staticmethod
@@ -141,7 +150,7 @@ class Master(unittest.TestCase):
         without = [int(word) for word in self.ask("run")]
         print(text % ("without", *without))
         self.assertEqual(without[:2], [round(OUTAGE / PERIOD)] * 2)  # none is lost
-        self.assertLessEqual(without[3], with_master[3] + 1)  # nor, up to 99 %, later by more than one cycle
+        self.assertLessEqual(without[3], with_master[3])  # nor are 99 % later than before by a cycle
         self.assertEqual(self.ask("service"), ["True"])
         self.assertEqual(self.ask("diagnostics"), ["True"])
         begin = time.monotonic()
