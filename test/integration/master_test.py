@@ -74,9 +74,10 @@ def before_others():
 
 
 def write_hand(path):
-    """A minute: down to the box, and after a second up and in a circle with it."""
+    """Down to the box, and after a second up and in a circle with it; for longer than a test, because the committed
+    state waits for the buttons of a driver that falls silent."""
     with open(path, "w", encoding="utf-8") as file:
-        for i in range(50 * 60):
+        for i in range(round(50 * (60 + 2 * OUTAGE))):
             t = 0.02 * i
             up, angle = min(max(t - 2.0, 0.0), 1.0), max(t - 3.0, 0.0)
             x, y, z = 0.05 * math.sin(angle), 0.05 * (1.0 - math.cos(angle)), 0.22 + 0.1 * up
