@@ -151,7 +151,7 @@ class Master(unittest.TestCase):
         without = [int(word) for word in self.ask("run")]
         print(text % ("without", *without))
         self.assertEqual(without[:2], [round(OUTAGE / PERIOD)] * 2)  # none is lost
-        self.assertLessEqual(without[3], with_master[3])  # nor are 99 % later than before by a cycle
+        self.assertLessEqual(without[3], with_master[3] + 1)  # nor are 99 % later than before by more than a cycle
         self.assertEqual(self.ask("service"), ["True"])
         self.assertEqual(self.ask("diagnostics"), ["True"])
         begin = time.monotonic()
