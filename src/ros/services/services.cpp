@@ -92,10 +92,12 @@ void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request
   runner.change("set_integrator", command);
   const dynamics::DynamicsSettings now =
       runner.locked([](const simulation::Simulation& s) { return s.settings().dynamics; });
-  char text[120];
-  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s",
+  const live::StepTime step = runner.time_of_step();
+  char text[200];
+  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s; a step takes %.2g s now%s",
                 validation::name_of(now.integrator).c_str(), now.step, now.tolerance,
-                now.tolerance > 0.0 ? "" : " (fixed steps)");
+                now.tolerance > 0.0 ? "" : " (fixed steps)", step.takes,
+                step.takes > step.lasts ? ", so simulated time will be slower than the hands'" : "");
   response.message = text;
 }
 
