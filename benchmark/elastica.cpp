@@ -85,7 +85,7 @@ TipDeflection shape_deflection(const std::string& shape, double alpha) {
   for (int step = 1; step <= kLoadSteps; ++step) {
     Wrench load;
     load.force = Vector3d(alpha * EI / (kLength * kLength) * step / kLoadSteps, 0.0, 0.0);
-    body.set_external_wrench(load);
+    body.set_load(load);
     find_rest(body, handle, q);
   }
   const RigidTransform tip = body.object(handle, {q, rod::StrainVector::Zero(body.size())}).X;

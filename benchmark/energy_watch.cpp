@@ -34,6 +34,12 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
         mass_ * (u0.dot(velocity_change) + u1.dot(h * now.v_WO_W - displacement) +
                  u2.dot(h * h * now.v_WO_W - 2.0 * h * displacement + 2.0 * area) + kGravity * handle_displacement.z());
     work_squares_ += std::pow(2.0 * mass_ * u2.norm() * std::min(chord_deviation.norm(), widest), 2);
+    // Between the calls the body is no farther from the handle than the largest deflection and what the handle moves,
+    // to either side, and so is what it is taken for.
+    const double sway = 8.0 * mass_ * u2.norm() * h;
+    work_per_deflection_ += sway;
+    work_per_passage_ +=
+        sway * h * std::sqrt(std::max({u0.squaredNorm(), middle.v_W.squaredNorm(), end.v_W.squaredNorm()}));
     estimated_ += now.estimated;
     all_estimated_ += now.estimated;
   }
@@ -42,6 +48,7 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
   largest_ = std::max(largest_, now.moving);
   const double balance = now.moving + mass_ * kGravity * now.p_WO.z() - work_;
   growth_ = std::max(growth_, balance - lowest_ - std::min(estimated_, max_share * largest_));
+  growth_beyond_all_ = std::max(growth_beyond_all_, balance - lowest_ - 2.0 * estimated_);
   if (balance > lowest_) return;
   lowest_ = balance;
   estimated_ = 0.0;
@@ -50,5 +57,9 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
 double EnergyWatch::uncertainty() const { return 3.0 * std::sqrt(work_squares_); }
 
 double EnergyWatch::growth() const { return std::max(0.0, growth_ - uncertainty()) / largest_; }
+
+double EnergyWatch::excess() const {
+  return std::max(0.0, growth_beyond_all_ - work_per_deflection_ * deflection_ - work_per_passage_) / largest_;
+}
 
 }  // namespace spring_workbench::benchmark

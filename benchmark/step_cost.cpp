@@ -128,12 +128,12 @@ void add_advances(std::vector<StepCost>& costs) {
   note("advance by 20 ms", advance_cost(one, [](simulation::Simulation&, bool) {}));
   note("advance after a change of stiffness", advance_cost(one, [](simulation::Simulation& simulation, bool even) {
          simulation::ForkChange change;
-         change.bend_stiffness = even ? 500.0 : 510.0;
+         change.stiffness.bend = even ? 500.0 : 510.0;
          simulation.change(change);
        }));
   note("advance after a switch of DOFs", advance_cost(one, [](simulation::Simulation& simulation, bool even) {
          simulation::ForkChange change;
-         change.dofs = rod::ForkDofs{true, true, even};
+         change.dofs = {true, true, even};
          simulation.change(change);
        }));
   note("advance after a grasp", grasp_cost(one));

@@ -34,9 +34,9 @@ Array to_arrays(std::size_t count, PoseOf&& pose_of) {
   }
   return all;
 }
-/// Converts numbers, booleans, strings, lists and dictionaries to the YAML of a settings file. Throws InputError for
-/// other types.
-YAML::Node to_yaml(const pybind11::handle& value);
+/// Converts numbers, booleans, strings, lists and dictionaries to the YAML of a settings file. Throws InputError naming
+/// `key` and the keys within for other types.
+YAML::Node to_yaml(const pybind11::handle& value, const std::string& key);
 
 /// The name of an enum value.
 template <typename E>

@@ -67,13 +67,14 @@ Wrench to_wrench(const Array& vector, const std::string& what) {
   return {Vector3d(vector.at(0), vector.at(1), vector.at(2)), Vector3d(vector.at(3), vector.at(4), vector.at(5))};
 }
 
-YAML::Node to_yaml(const py::handle& value) {
+YAML::Node to_yaml(const py::handle& value, const std::string& key) {
   if (py::isinstance<py::bool_>(value)) return YAML::Node(value.cast<bool>() ? "true" : "false");
   if (py::isinstance<py::str>(value)) return YAML::Node(value.cast<std::string>());
   if (py::isinstance<py::dict>(value)) {
     YAML::Node map(YAML::NodeType::Map);
-    for (const auto& [key, entry] : value.cast<py::dict>()) {
-      map.force_insert(py::str(key).cast<std::string>(), to_yaml(entry));
+    for (const auto& [name, entry] : value.cast<py::dict>()) {
+      const std::string text = py::str(name);
+      map.force_insert(text, to_yaml(entry, key.empty() ? text : key + "." + text));
     }
     return map;
   }
@@ -84,10 +85,10 @@ YAML::Node to_yaml(const py::handle& value) {
   }
   if (py::isinstance<py::iterable>(value)) {
     YAML::Node list(YAML::NodeType::Sequence);
-    for (const py::handle& entry : value) list.push_back(to_yaml(entry));
+    for (const py::handle& entry : value) list.push_back(to_yaml(entry, key));
     return list;
   }
-  throw validation::InputError("settings: must be a number, a boolean, a string, a list or a dictionary, got " +
+  throw validation::InputError(key + ": must be a number, a boolean, a string, a list or a dictionary, got " +
                                py::repr(value).cast<std::string>());
 }
 

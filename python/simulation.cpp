@@ -1,4 +1,5 @@
 #include <map>
+#include <variant>
 
 #include "bindings.h"
 
@@ -10,15 +11,17 @@ using simulation::SimulationSettings;
 
 namespace {
 
-/// The values of stretch, bend and torsion; none for None. Throws InputError naming `key` for anything else.
+/// The values of stretch, bend and torsion; None for all or one of them changes nothing. Throws InputError naming `key`
+/// for anything else.
 template <typename T>
-std::optional<std::array<T, 3>> per_dof(const py::object& values, const std::string& key) {
-  if (values.is_none()) return std::nullopt;
+rod::PerDofChange<T> per_dof(const py::object& values, const std::string& key) {
+  if (values.is_none()) return {};
   try {
-    return values.cast<std::array<T, 3>>();
+    const auto each = values.cast<std::array<std::optional<T>, 3>>();
+    return {each[0], each[1], each[2]};
   } catch (const py::cast_error&) {
     const std::string kind = std::is_same_v<T, bool> ? "booleans" : "numbers";
-    throw validation::InputError(key + ": must be three " + kind + ", of stretch, bend and torsion, got " +
+    throw validation::InputError(key + ": must be three " + kind + " (or None), of stretch, bend and torsion, got " +
                                  py::repr(values).cast<std::string>());
   }
 }
@@ -26,15 +29,9 @@ std::optional<std::array<T, 3>> per_dof(const py::object& values, const std::str
 void change(Simulation& of, const py::object& stiffness, const py::object& damping_ratio, const py::object& dofs,
             const std::optional<std::string>& integrator, std::optional<double> step, std::optional<double> tolerance) {
   simulation::ForkChange fork;
-  if (const auto k = per_dof<double>(stiffness, "stiffness")) {
-    fork.stretch_stiffness = (*k)[0];
-    fork.bend_stiffness = (*k)[1];
-    fork.torsion_stiffness = (*k)[2];
-  }
-  if (const auto z = per_dof<double>(damping_ratio, "damping_ratio")) {
-    fork.damping_ratio = rod::PerDof{(*z)[0], (*z)[1], (*z)[2]};
-  }
-  if (const auto on = per_dof<bool>(dofs, "dofs")) fork.dofs = rod::ForkDofs{(*on)[0], (*on)[1], (*on)[2]};
+  fork.stiffness = per_dof<double>(stiffness, "stiffness");
+  fork.damping_ratio = per_dof<double>(damping_ratio, "damping_ratio");
+  fork.dofs = per_dof<bool>(dofs, "dofs");
   simulation::DynamicsChange dynamics;
   if (integrator) dynamics.integrator = value_of<dynamics::IntegratorKind>(*integrator, "integrator");
   dynamics.step = step;
@@ -52,7 +49,7 @@ void push_motion(Simulation& to, const Motion& motion, std::size_t hand) {
 
 std::map<std::string, RigidTransform> to_poses(const std::map<std::string, Array>& matrices) {
   std::map<std::string, RigidTransform> poses;
-  for (const auto& [name, matrix] : matrices) poses[name] = to_pose(matrix, "place: " + name);
+  for (const auto& [name, matrix] : matrices) poses[name] = to_pose(matrix, name);
   return poses;
 }
 
@@ -151,10 +148,11 @@ void bind_changes(py::class_<Simulation>& type) {
       .def("change", &change, py::kw_only(), py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
            py::arg("dofs") = py::none(), py::arg("integrator") = py::none(), py::arg("step") = py::none(),
            py::arg("tolerance") = py::none(),
-           R"(Changes every fork and the integration, all or nothing; values that are not given stay as they are.
+           R"(Changes every fork and the integration, all or nothing; what is None stays as it is.
 
-stiffness: of stretch, bend [N/m] and torsion [N m/rad]; damping_ratio: of the same three; dofs: True for each of
-the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not allowed.)")
+stiffness: of stretch, bend [N/m] and torsion [N m/rad], each a number or None; damping_ratio: of the same three; dofs:
+True for each of the three that is on; integrator: see integrators(); step [s]; tolerance [m], 0 for fixed steps.
+Raises InputError if a value is not allowed.)")
       .def(
           "calibrate", [](Simulation& s) { s.calibrate(); },
           "Fits each hand's tool to the object that it holds or, with calibrate: world, restores the scene's "
@@ -170,25 +168,36 @@ the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputEr
 Raises InputError, and changes nothing, if a name is not that of a movable object or a pose is invalid.)")
       .def(
           "edit",
-          [](Simulation& s, const std::string& action, const std::string& object, const std::string& urdf,
+          [](Simulation& s, const std::string& action, const std::string& name, const std::string& urdf,
              const std::optional<Array>& pose, double mass, double friction) {
             simulation::ObjectEdit edit;
-            edit.action = value_of<simulation::ObjectEdit::Action>(action, "edit: action");
-            edit.object = object;
+            edit.action = value_of<simulation::ObjectEdit::Action>(action, "action");
+            edit.name = name;
             edit.urdf = urdf;
-            if (pose) edit.X_WL = to_pose(*pose, "edit: pose");
+            if (pose) edit.X_WL = to_pose(*pose, "pose");
             edit.mass = mass;
             edit.friction = friction;
             s.edit(edit);
           },
-          py::arg("action"), py::arg("object"), py::arg("urdf") = "", py::arg("pose") = py::none(),
-          py::arg("mass") = 0.0, py::arg("friction") = 0.0,
-          R"(Changes one object, all or nothing; everything else continues from where it is.
+          py::arg("action"), py::arg("name"), py::arg("urdf") = "", py::arg("pose") = py::none(), py::arg("mass") = 0.0,
+          py::arg("friction") = 0.0,
+          R"(Changes the object `name`, all or nothing; everything else continues from where it is.
 
-action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose), remove,
-mass [kg; 0: massless] or friction. Raises InputError if the object or a value is not allowed.)")
+action: add (needs urdf; at pose or, without one, on the bench), move (needs pose), remove, mass (to mass [kg]; 0:
+massless) or friction (to friction). pose: of its URDF link frame in world, shape (4, 4). Raises InputError if the
+object or a value is not allowed.)")
       .def("reset", &Simulation::reset,
            "Returns all objects to their initial poses; nothing is held, and all samples are forgotten.");
+}
+
+void update(SimulationSettings& settings, const py::dict& values) {
+  simulation::apply_settings(to_yaml(values, ""), "", settings);
+}
+
+SimulationSettings to_settings(const py::dict& values) {
+  SimulationSettings settings;
+  update(settings, values);
+  return settings;
 }
 
 }  // namespace
@@ -203,20 +212,12 @@ void bind_settings(py::module_& module) {
       .def_readonly("default", &SettingDescription::default_value, "Value if none is given.")
       .def_readonly("meaning", &SettingDescription::meaning, "What the setting does.");
   module.def("setting_descriptions", &simulation::setting_descriptions, "Returns the descriptions of all settings.");
-  const auto update = [](SimulationSettings& settings, const py::dict& values) {
-    simulation::apply_settings(to_yaml(values), "settings", settings);
-  };
   py::class_<SimulationSettings>(module, "SimulationSettings",
                                  "Settings of a simulation; setting_descriptions() explains them.")
-      .def(py::init([=](const py::dict& values) {
-             SimulationSettings settings;
-             update(settings, values);
-             return settings;
-           }),
-           py::arg("values") = py::dict(),
+      .def(py::init(&to_settings), py::arg("values") = py::dict(),
            "values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown "
            "key, a wrong type or a value that is not allowed.")
-      .def("update", update, py::arg("values"),
+      .def("update", &update, py::arg("values"),
            "Sets these values, all or none. Raises InputError as the constructor does.");
 }
 
@@ -226,9 +227,14 @@ void bind_simulation(py::module_& module) {
 
 It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus, at
 most the setting `styluses` - 1; any other raises InputError.)");
-  type.def(py::init<const scene::Scene&, const SimulationSettings&>(), py::arg("scene"),
-           py::arg_v("settings", SimulationSettings(), "SimulationSettings()"),
-           "Starts a simulation of `scene`. Raises InputError if settings and scene do not match.")
+  type.def(
+          py::init([](const scene::Scene& scene, const std::variant<SimulationSettings, py::dict>& settings) {
+            if (const auto* ready = std::get_if<SimulationSettings>(&settings)) return Simulation(scene, *ready);
+            return Simulation(scene, to_settings(std::get<py::dict>(settings)));
+          }),
+          py::arg("scene"), py::arg_v("settings", SimulationSettings(), "SimulationSettings()"),
+          "Starts a simulation of `scene`. settings: SimulationSettings or the dictionary for it. Raises InputError if "
+          "a setting is not allowed or does not match the scene.")
       .def(
           "push_stylus",
           [](Simulation& s, double t, const Array& pose, std::size_t hand) {

@@ -76,7 +76,7 @@ void bind_tool(py::module_& module) {
       .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the fork [J].")
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
       .def_readonly("error_bound", &ToolState::error_bound,
-                    "Bound of the error of integration in position, since the grasp or the last step without a bound "
+                    "Bound on the error of integration in position, since the grasp or the last step without a bound "
                     "[m], rounding excluded; None if the setting `error_bound` is off or, e.g., in contact.")
       .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
@@ -108,15 +108,14 @@ void bind_report(py::module_& module) {
   py::class_<AdvanceReport>(module, "AdvanceReport", "Report of one call of `advance`.")
       .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
       .def_readonly("substeps", &AdvanceReport::substeps,
-                    "Number of attempts that were discarded and repeated with a shorter step (equation not solved, or "
-                    "error too large).")
+                    "Number of steps discarded and repeated as shorter ones (equation not solved, or error too large).")
       .def_readonly("simulated_time", &AdvanceReport::simulated_time, "Simulated time [s].")
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
       .def_readonly("angle_error", &AdvanceReport::angle_error,
                     "Largest estimate of a step's local error in the angle [rad].")
       .def_readonly(
           "error_bound", &AdvanceReport::error_bound,
-          "Largest bound of the error of integration in position, since the grasp or the last step without a bound "
+          "Largest bound on the error of integration in position, since the grasp or the last step without a bound "
           "[m]; None if no step has one, e.g. without the setting `error_bound`.")
       .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound,
                     "The same bound for the orientation [rad]; see `error_bound`.")

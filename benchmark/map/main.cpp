@@ -42,7 +42,8 @@ Options parse(int argc, char** argv) {
       options.cells = std::stoul(value);
       ++i;
     } else {
-      validation::refuse(kWhere, "argument", argument, "one of --out, --full, --cells");
+      throw validation::InputError(validation::prefix(kWhere, argument) +
+                                   "unknown option; known options are --out DIR, --full, --cells N");
     }
   }
   if (options.out.empty()) validation::refuse(kWhere, "--out", "", "a folder to write to");

@@ -73,9 +73,10 @@ ReportOptions parse_report_options(int argc, char** argv) {
       if (!has_value) validation::refuse(kWhere, "--merge", "", "the files of all shards");
       while (i + 1 < argc && std::string(argv[i + 1]).rfind("--", 0) != 0) options.parts.emplace_back(argv[++i]);
     } else {
-      validation::refuse(kWhere, "argument", argument,
-                         "one of --quick, --out DIR, --commit NAME, --shard I/N, --queue DIR, --merge PART..., "
-                         "--scene FILE, --bag FILE, --motion FILE, --settings FILE");
+      throw validation::InputError(validation::prefix(kWhere, argument) +
+                                   "unknown option; known options are --quick, --out DIR, --commit NAME, --shard I/N, "
+                                   "--queue DIR, --merge PART..., --scene FILE, --bag FILE, --motion FILE, "
+                                   "--settings FILE");
     }
   }
   check_recording(options);

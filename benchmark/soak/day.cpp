@@ -177,10 +177,10 @@ class Day {
     if (chance(0.5)) command.hand = random_() % hands_.size();
     command.tool = std::array{tools::Tool::spring, tools::Tool::spring_fork, tools::Tool::direct}[random_() % 3];
     command.on = chance(0.3);
-    command.fork_change.dofs = rod::ForkDofs{chance(0.8), chance(0.8), chance(0.8)};
-    command.fork_change.stretch_stiffness = uniform(200.0, 1000.0);
+    command.fork_change.dofs = {chance(0.8), chance(0.8), chance(0.8)};
+    command.fork_change.stiffness.stretch = uniform(200.0, 1000.0);
     command.edit.action = simulation::ObjectEdit::Action::mass;
-    command.edit.object = movable(random_()).name;
+    command.edit.name = movable(random_()).name;
     command.edit.mass = uniform(0.2, 2.0);
     return command;
   }

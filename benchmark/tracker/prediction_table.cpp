@@ -133,7 +133,7 @@ class Run {
   scene::Scene scene_;
   simulation::SimulationSettings settings_;
   simulation::Simulation simulation_{scene_, settings_}, between_{scene_, settings_};
-  hand_input::Feed feed_{simulation_, hand_input::InputSettings()};
+  hand_input::Feed feed_{simulation_, hand_input::InputSettings(), hand_input::Feed::Prediction::on};
   std::vector<live::LookAhead> ahead_;
   std::multimap<double, Shown> shown_;  ///< not committed yet, by time [s]
   std::array<Errors, kAhead.size()> errors_;

@@ -29,7 +29,7 @@ def simulation_of(scene, integrator, step):
         "fork.stiffness": {"stretch": 400.0, "bend": 100.0, "torsion": 1.0},
         "fork.damping": {"stretch": 0.1, "bend": 0.1, "torsion": 0.1},
     }
-    simulation = sw.Simulation(scene, sw.SimulationSettings(settings))
+    simulation = sw.Simulation(scene, settings)
     for t in np.arange(0.0, END + 0.01, 0.02):
         simulation.push_stylus(t, sw.pose([0.05 * (1.0 - np.cos(6.0 * t)), 0.0, 0.23], DOWN))
     return simulation

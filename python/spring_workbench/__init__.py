@@ -2,14 +2,14 @@
 
     import spring_workbench as sw
 
-    simulation = sw.Simulation(sw.load_scene("box.urdf"), sw.SimulationSettings({"contact": "none"}))
+    simulation = sw.Simulation(sw.load_scene("box.urdf"), {"contact": "none"})
     simulation.push_motion(sw.read_motion("hand.tum"))
     simulation.advance(1.0)
     print(simulation.poses)
 
 SI units, right-handed frames, z up. A pose is a 4 x 4 array that takes coordinates of its frame to world; a quaternion
-is x y z w. Invalid input raises InputError, which names the field, what is allowed and what was
-given; the state is then unchanged.
+is x y z w. Invalid input raises InputError, whose message names the field, what is allowed and what was given; the
+state is then unchanged.
 """
 
 _NAMES = [

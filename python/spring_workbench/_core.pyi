@@ -1,6 +1,6 @@
 """Compiled part of spring_workbench."""
 
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -148,7 +148,7 @@ class ToolState:
         """Kinetic energy of the held object [J]."""
     @property
     def error_bound(self) -> Optional[float]:
-        """Bound of the error of integration in position, since the grasp or the last step without a bound [m],
+        """Bound on the error of integration in position, since the grasp or the last step without a bound [m],
         rounding excluded; None if the setting `error_bound` is off or, e.g., in contact."""
     @property
     def weight(self) -> float:
@@ -197,8 +197,7 @@ class AdvanceReport:
         """Number of steps taken."""
     @property
     def substeps(self) -> int:
-        """Number of attempts that were discarded and repeated with a shorter step (equation not solved, or error too
-        large)."""
+        """Number of steps discarded and repeated as shorter ones (equation not solved, or error too large)."""
     @property
     def simulated_time(self) -> float:
         """Simulated time [s]."""
@@ -210,7 +209,7 @@ class AdvanceReport:
         """Largest estimate of a step's local error in the angle [rad]."""
     @property
     def error_bound(self) -> Optional[float]:
-        """Largest bound of the error of integration in position, since the grasp or the last step without a bound [m];
+        """Largest bound on the error of integration in position, since the grasp or the last step without a bound [m];
         None if no step has one, e.g. without the setting `error_bound`."""
     @property
     def angle_error_bound(self) -> Optional[float]:
@@ -257,8 +256,9 @@ class Simulation:
 
     It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus,
     at most the setting `styluses` - 1; any other raises InputError."""
-    def __init__(self, scene: Scene, settings: SimulationSettings = ...) -> None:
-        """Starts a simulation of `scene`. Raises InputError if settings and scene do not match."""
+    def __init__(self, scene: Scene, settings: Union[SimulationSettings, Dict[str, Any]] = ...) -> None:
+        """Starts a simulation of `scene`. settings: SimulationSettings or the dictionary for it. Raises InputError if a
+        setting is not allowed or does not match the scene."""
     def push_stylus(self, t: float, pose: npt.ArrayLike, hand: int = 0) -> bool:
         """Adds a pose of the stylus, shape (4, 4), at time t [s]; its z axis is that of the fork, from the hand to the
         tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is
@@ -319,19 +319,18 @@ class Simulation:
     def change(
         self,
         *,
-        stiffness: Optional[Sequence[float]] = None,
-        damping_ratio: Optional[Sequence[float]] = None,
-        dofs: Optional[Sequence[bool]] = None,
+        stiffness: Optional[Sequence[Optional[float]]] = None,
+        damping_ratio: Optional[Sequence[Optional[float]]] = None,
+        dofs: Optional[Sequence[Optional[bool]]] = None,
         integrator: Optional[str] = None,
         step: Optional[float] = None,
         tolerance: Optional[float] = None,
     ) -> None:
-        """Changes every fork and the integration, all or nothing; values that are not given stay as they
-        are.
+        """Changes every fork and the integration, all or nothing; what is None stays as it is.
 
-        stiffness: of stretch, bend [N/m] and torsion [N m/rad]; damping_ratio: of the same three; dofs: True for
-        each of the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not
-        allowed."""
+        stiffness: of stretch, bend [N/m] and torsion [N m/rad], each a number or None; damping_ratio: of the same
+        three; dofs: True for each of the three that is on; integrator: see integrators(); step [s]; tolerance [m], 0
+        for fixed steps. Raises InputError if a value is not allowed."""
     def calibrate(self) -> None:
         """Fits each hand's tool to the object that it holds or, with calibrate: world, restores the scene's stiffness.
         Raises InputError if nothing is held by a fork or a spring."""
@@ -344,16 +343,17 @@ class Simulation:
     def edit(
         self,
         action: str,
-        object: str,
+        name: str,
         urdf: str = ...,
         pose: Optional[npt.ArrayLike] = None,
         mass: float = 0.0,
         friction: float = 0.0,
     ) -> None:
-        """Changes one object, all or nothing; everything else continues from where it is.
+        """Changes the object `name`, all or nothing; everything else continues from where it is.
 
-        action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose),
-        remove, mass [kg; 0: massless] or friction. Raises InputError if the object or a value is not allowed."""
+        action: add (needs urdf; at pose or, without one, on the bench), move (needs pose), remove, mass (to mass [kg];
+        0: massless) or friction (to friction). pose: of its URDF link frame in world, shape (4, 4). Raises InputError
+        if the object or a value is not allowed."""
 
     def reset(self) -> None:
         """Returns all objects to their initial poses; nothing is held, and all samples are forgotten."""

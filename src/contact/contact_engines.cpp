@@ -24,8 +24,7 @@ void* find_function(const Engine& engine, const scene::Scene& scene) {
   void* function = library == nullptr ? nullptr : dlsym(library, engine.function);
   if (function == nullptr) {
     const char* mode = scene.contact == scene::ContactMode::dynamic ? "dynamic" : "stop";
-    validation::refuse(scene.path, "contact", mode,
-                       std::string("a mode whose engines this build has (") + dlerror() + ")");
+    validation::refuse("", "contact", mode, std::string("a mode whose engines this build has (") + dlerror() + ")");
   }
   return function;
 }

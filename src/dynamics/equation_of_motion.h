@@ -51,8 +51,8 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
   r.force = body_.mass * a;
   r.moment_O = I * alpha_O + math::cross(r.w_O, I * r.w_O);
   if (loaded_) {
-    r.force = r.force - math::transposed(h.R_WB, math::three(external_W_.force));
-    r.moment_O = r.moment_O - math::transposed(r.R_HO, math::transposed(h.R_WB, math::three(external_W_.moment)));
+    r.force = r.force - math::transposed(h.R_WB, math::three(load_W_.force));
+    r.moment_O = r.moment_O - math::transposed(r.R_HO, math::transposed(h.R_WB, math::three(load_W_.moment)));
   }
   if (coupled()) {
     const Pull<S> pull = couplings_.pull(handle.t, handle.seen, {r.R_HO, r.p_HO, r.v_rel, w_rel});

@@ -22,7 +22,7 @@ void HeldBody::changed() {
 }
 
 void HeldBody::exchange(math::StateArchive& state) {
-  state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, external_W_, loaded_,
+  state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, load_W_, loaded_,
         couplings_);
   if (state.sets()) derive();
 }
@@ -118,10 +118,10 @@ bool HeldBody::drop_finished_returns(double t) {
   return dropped;
 }
 
-void HeldBody::set_external_wrench(const Wrench& wrench_W) {
-  if (wrench_W.force == external_W_.force && wrench_W.moment == external_W_.moment) return;
-  external_W_ = wrench_W;
-  loaded_ = !(wrench_W.force.isZero(0.0) && wrench_W.moment.isZero(0.0));
+void HeldBody::set_load(const Wrench& load_W) {
+  if (load_W.force == load_W_.force && load_W.moment == load_W_.moment) return;
+  load_W_ = load_W;
+  loaded_ = !(load_W.force.isZero(0.0) && load_W.moment.isZero(0.0));
   ++load_version_;
 }
 

@@ -29,8 +29,8 @@ SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleForcings& handle, const
   out.power =
       damped - dot(about_H, h.alpha_B) + body_.mass * (dot(h.w_B, math::cross(object.p_HO, g)) - dot(v, changed));
   if (!loaded_) return;
-  out.power += dot(math::transposed(h.R_WB, math::three(external_W_.force)), object.v_rel) +
-               dot(math::transposed(h.R_WB, math::three(external_W_.moment)), object.R_HO * object.w_O - h.w_B);
+  out.power += dot(math::transposed(h.R_WB, math::three(load_W_.force)), object.v_rel) +
+               dot(math::transposed(h.R_WB, math::three(load_W_.moment)), object.R_HO * object.w_O - h.w_B);
 }
 
 EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot) const {

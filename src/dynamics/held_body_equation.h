@@ -31,7 +31,7 @@ class HeldBodyEquation {
   /// The acceleration by the handle's acceleration and the external wrench alone.
   SPRING_WORKBENCH_INLINE NodeStrains by_forcing(const HandleForcings& forcing, const ModalDecomposition& modes) const {
     const motion::FrameForcing<math::Pack>& handle = forcing.of_H;
-    const Wrench& load = body_.external_wrench();
+    const Wrench& load = body_.load();
     const auto force = math::transposed(handle.R_WB, math::three(load.force)),
                moment = math::transposed(handle.R_WB, math::three(load.moment));
     const auto& A = modes.by_handle;
@@ -58,7 +58,7 @@ class HeldBodyEquation {
   /// Springs, dampers and loads may cancel: the acceleration is then a small difference of large terms.
   template <typename LinearPart>
   Strain cancelling(const LinearPart& part, const Strain& q, const Strain& q_dot) const {
-    const Wrench& load = body_.external_wrench();
+    const Wrench& load = body_.load();
     const Wrench all{Vector3d::Constant(load.force.norm()), Vector3d::Constant(load.moment.norm())};
     return part.stiffness().cwiseAbs() * q.cwiseAbs() + part.damping().cwiseAbs() * q_dot.cwiseAbs() +
            part.modes().by_wrench.cwiseAbs() * to_vector(all);

@@ -56,7 +56,7 @@ void swap_alike(std::unique_ptr<Integrator>& a, std::unique_ptr<Integrator>& b) 
 IntegratorKind register_integrator(const std::string& name, MakeIntegrator make) {
   auto& [names, makers] = known();
   if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) {
-    validation::refuse("register_integrator", "name", name, "a name other than " + validation::join(names));
+    validation::refuse("", "name", name, "a name other than " + validation::join(names));
   }
   names.push_back(name);
   makers.push_back(std::move(make));

@@ -110,7 +110,7 @@ StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle
   const rod::StrainVector candidate = body.path_check() ? cut_back(body, begin, end, from, target_) : target_;
   // Contact acts on the spring-dampers; so does the load on a coordinate without stiffness.
   const Matrix3d R_HW = end.handle.X_WH.linear().transpose();
-  const Wrench contact{R_HW * body.external_wrench().force, R_HW * body.external_wrench().moment};
+  const Wrench contact{R_HW * body.load().force, R_HW * body.load().moment};
   const rod::StrainVector pushed = body.object_jacobian(t + h, from.q).transpose() * to_vector(contact);
   const rod::StrainVector free = body.coordinates().gather(deformation.force(rest.q));
   // Errors: one constant load stands for one that changes over the step; and the target's equilibrium is approximate.

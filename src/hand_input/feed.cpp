@@ -43,20 +43,21 @@ struct Feed::Hand {
   DeadBand dead_band;
   Reacquisition reacquisition;
   PlayoutClock playout;
-  motion::PosePredictor ahead;
-  bool has_sample = false;             ///< whether a sample has arrived since the start
-  std::optional<RigidTransform> X_WP;  ///< pose of the tracker at the newest sample
+  std::optional<motion::PosePredictor> ahead;  ///< if its motion is predicted
+  bool has_sample = false;                     ///< whether a sample has arrived since the start
+  std::optional<RigidTransform> X_WP;          ///< pose of the tracker at the newest sample
   std::size_t tracker_moves = 0;
 };
 
-Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings) : simulation_(simulation) {
+Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings, Prediction prediction)
+    : simulation_(simulation) {
   const double dropout_after = simulation.settings().dropout_after;
   const Hand hand{SampleGate(settings, dropout_after),
                   PoseFilter(settings),
                   DeadBand(settings),
                   Reacquisition(settings),
                   PlayoutClock(dropout_after),
-                  motion::PosePredictor(),
+                  prediction == Prediction::on ? std::make_optional<motion::PosePredictor>() : std::nullopt,
                   false,
                   {},
                   0};
@@ -101,11 +102,11 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
   motion::PoseSample smoothed = input.dead_band.filter(input.smoothing.filter(sample));
   if (X_WP != nullptr) smoothed.X = *X_WP * smoothed.X;
   const double simulated_until = has_sample_ ? simulation_.time() : kNever;
-  if (relocation) input.ahead.restart();
+  if (relocation && input.ahead) input.ahead->restart();
   for (const motion::PoseSample& followed : input.reacquisition.follow(smoothed, relocation, simulated_until)) {
     if (!simulation_.push_stylus(followed, hand)) continue;
     input.has_sample = true;
-    input.ahead.push(followed);
+    if (input.ahead) input.ahead->push(followed);
     note(Accepted::Kind::pose, hand, followed.t, followed.X);
   }
   has_sample_ |= input.has_sample;
@@ -180,7 +181,8 @@ simulation::AdvanceReport Feed::advance_to(double t) {
 
 void Feed::predict(double t, simulation::Simulation& copy) const {
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-    for (const motion::PoseSample& sample : hands_[hand].ahead.continuation(t)) copy.push_stylus(sample, hand);
+    if (!hands_[hand].ahead) continue;
+    for (const motion::PoseSample& sample : hands_[hand].ahead->continuation(t)) copy.push_stylus(sample, hand);
   }
 }
 
@@ -195,7 +197,7 @@ void Feed::restart() {
   for (Hand& hand : hands_) {
     hand.playout.clear();
     hand.reacquisition.restart();
-    hand.ahead.restart();
+    if (hand.ahead) hand.ahead->restart();
     hand.has_sample = false;
   }
   has_sample_ = began_ = false;

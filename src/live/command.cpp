@@ -22,7 +22,7 @@ simulation::ChangeReport release(const Command& command, simulation::Simulation&
     const std::string name = simulation.tool(hand).held_object;
     if (simulation.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  if (names.empty()) throw validation::InputError("release: no object is held; call it while an object is held");
+  if (names.empty()) throw validation::InputError("no object is held, so there is nothing to release");
   simulation::ChangeReport report;
   report.message = "released " + validation::join(names);
   return report;
@@ -61,8 +61,8 @@ Command Command::from(const std::vector<std::uint64_t>& words) {
 
 void Command::exchange(math::StateArchive& state) {
   state(kind, hand, tool, on, places);
-  state(fork_change.dofs, fork_change.stretch_stiffness, fork_change.bend_stiffness, fork_change.torsion_stiffness,
-        fork_change.damping_ratio, fork_change.damping_coefficient, fork_change.damping_law);
+  state(fork_change.dofs, fork_change.stiffness, fork_change.damping_ratio, fork_change.damping_coefficient,
+        fork_change.damping_law);
   state(dynamics_change.integrator, dynamics_change.step, dynamics_change.tolerance, edit);
 }
 
@@ -107,7 +107,7 @@ simulation::Simulation make_simulation(const scene::Scene& scene, const simulati
   for (std::size_t hand = 0; hand < forks.size(); ++hand) {
     simulation::ForkChange change = simulation::change_to(forks[hand]);
     if (settings.grasp.calibrate == tools::Calibration::world) {
-      change.stretch_stiffness = change.bend_stiffness = change.torsion_stiffness = std::nullopt;
+      change.stiffness = {};
     }
     simulation.change(change, hand);
   }

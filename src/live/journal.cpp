@@ -1,5 +1,8 @@
 #include "spring_workbench/live/journal.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::live {
@@ -12,6 +15,17 @@ Change comparison_of(const simulation::Simulation& simulation) {
   change.scene = simulation.scene().path;
   change.hash_before = simulation.state_hash();
   return change;
+}
+
+std::vector<Entry> from_first_complete(std::vector<Entry> entries) {
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.index < b.index; });
+  const auto input = std::find_if(entries.begin(), entries.end(),
+                                  [](const Entry& e) { return std::holds_alternative<Accepted>(e.what); });
+  const auto first = std::make_reverse_iterator(input == entries.end() ? input : std::next(input));
+  const auto after_gap = std::adjacent_find(
+      first, entries.rend(), [](const Entry& later, const Entry& earlier) { return later.index != earlier.index + 1; });
+  if (after_gap != entries.rend()) entries.erase(entries.begin(), std::prev(after_gap.base()));
+  return entries;
 }
 
 void Replayer::play(const Entry& entry, const AtStop& at_stop) {

@@ -33,6 +33,21 @@ double LookAhead::show_newest(const simulation::Simulation& committed, const han
   return std::max(t - newest, 0.0);
 }
 
+StepTime LookAhead::time_of_step(const simulation::Simulation& committed, const hand_input::Feed& feed,
+                                 const Pace& pace) {
+  const simulation::SimulationState shown = copy_.save();
+  copy_.follow(committed);
+  StepTime step{copy_.settings().dynamics.step / copy_.settings().hand_time_scale, 0.0};
+  const double end = copy_.time() + 2.0 * step.lasts;
+  feed.predict(end, copy_);
+  copy_.advance(end - step.lasts);
+  const double begin = pace.now();
+  copy_.advance(end);
+  step.takes = pace.now() - begin;
+  copy_.restore(shown);
+  return step;
+}
+
 PredictionError LookAhead::compare(const simulation::Simulation& committed) {
   up_to_date_ = false;
   const std::vector<Held> now = held_in_committed_.of(committed);

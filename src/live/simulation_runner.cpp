@@ -24,7 +24,7 @@ SimulationRunner::RecordedChange::~RecordedChange() {
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                    const hand_input::InputSettings& input, bool simulated_time, Pace pace)
     : simulation_(scene, settings),
-      feed_(simulation_, input),
+      feed_(simulation_, input, hand_input::Feed::Prediction::on),
       ahead_(scene, settings),
       scene_(std::make_shared<const scene::Scene>(simulation_.scene())),
       task_(scene),
@@ -163,8 +163,7 @@ void SimulationRunner::push(HandInput& input, StylusWrench wrench, double t) {
 }
 
 void SimulationRunner::restart_with(const std::string& what, Command::Kind kind) {
-  Command command;
-  command.kind = kind;
+  Command command(kind);
   command.places = std::exchange(places_, {});
   const RecordedChange noted(*this, what, command);
   undo_.perform(command, simulation_);
@@ -190,17 +189,12 @@ simulation::ChangeReport SimulationRunner::change(const std::string& what, const
   return report;
 }
 
-std::string SimulationRunner::undo() {
-  Command command;
-  command.kind = Command::Kind::undo;
-  return change("undo", command).message;
-}
+std::string SimulationRunner::undo() { return change("undo", Command(Command::Kind::undo)).message; }
 
 void SimulationRunner::load(const scene::Scene& scene) {
   const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
-  Command command;
-  command.kind = Command::Kind::load_scene;
-  begin_with("load_scene", command, make_simulation(scene, settings, forks), LookAhead(scene, settings), {});
+  begin_with("load_scene", Command(Command::Kind::load_scene), make_simulation(scene, settings, forks),
+             LookAhead(scene, settings), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {

@@ -27,7 +27,7 @@ simulation::ChangeReport Undo::perform(const Command& command, simulation::Simul
 }
 
 simulation::ChangeReport Undo::take_back(simulation::Simulation& simulation) {
-  if (before_.empty()) throw validation::InputError("undo: nothing was edited or reset since the scene was loaded");
+  if (before_.empty()) throw validation::InputError("nothing was edited or reset since the scene was loaded");
   const double now = simulation.time();
   simulation.restore(before_.back().second);
   put_to_rest(simulation, now);

@@ -16,7 +16,7 @@ void validate(const ExternalWrench& sample, const std::string& where) {
       validation::check_number(where, field + "." + axes[i], values[i], validation::between(-most, most));
     }
   };
-  validation::check_number(where, "time", sample.t, validation::between(-farthest_time, farthest_time));
+  validation::check_number(where, "t", sample.t, validation::between(-farthest_time, farthest_time));
   check("force", sample.wrench.force, largest_force);
   check("torque", sample.wrench.moment, largest_moment);
   const std::vector<std::string> axes = validation::names<ExternalWrench::Axes>();
@@ -26,7 +26,7 @@ void validate(const ExternalWrench& sample, const std::string& where) {
 }
 
 void WrenchTrack::push(const ExternalWrench& sample) {
-  validate(sample, "external_wrench");
+  validate(sample, "");
   while (!next_.empty() && next_.back().t >= sample.t) next_.pop_back();
   next_.push_back(sample);
 }

@@ -114,7 +114,9 @@ std::vector<PoseSample> PosePredictor::continuation(double t) const {
   const double newest = samples_.back().t;
   const double interval = std::min(interval_, farthest / 3.0);
   const double last = std::max(std::min(t, newest + farthest - interval), newest + 2.0 * interval);
-  return {at(newest + interval), at(last), at(last + interval)};
+  // A track that goes on to `t` ends there, and not at a sample that a rounding error puts before it.
+  const auto exact = [t](double s) { return std::abs(s - t) < shortest_interval ? t : s; };
+  return {at(exact(newest + interval)), at(exact(last)), at(last + interval)};
 }
 
 PoseSample PosePredictor::at(double t) const {

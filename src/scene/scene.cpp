@@ -129,7 +129,7 @@ class SceneLoader {
 }  // namespace
 
 Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots) {
-  const std::string path = resolve_file(path_or_uri, "", roots, "scene", "path");
+  const std::string path = resolve_file(path_or_uri, "", roots, "", "scene");
   return SceneLoader(path, roots).load();
 }
 
@@ -166,8 +166,8 @@ void set_mass(Body& body, double mass, const std::string& where) {
     std::vector<std::string> warnings;
     const RigidMass solid = solid_mass(body.collision.empty() ? body.visual : body.collision, 1.0, where, warnings);
     if (!(solid.mass > 0.0)) {
-      throw validation::InputError(where + ": mass: " + body.name +
-                                   " has no volume, so its inertia is not known; only 0 is allowed");
+      throw validation::InputError(validation::prefix(where, "mass") + "must be 0, since " + body.name +
+                                   " has no volume, so its inertia is not known");
     }
     m.inertia_O = mass / solid.mass * solid.inertia;
   } else {

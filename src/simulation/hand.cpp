@@ -212,7 +212,7 @@ void Hand::change_fork(const ForkChange& change, ChangeReport& report) {
   fork_ = change.applied_to(fork_);
   if (change.changes_springs() && hold_) hold_->set_springs(fork_);
   if (change.changes_springs() && probe_) probe_->set_springs(fork_);
-  if (!change.dofs || !hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
+  if (change.dofs.empty() || !hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
   if (hold_->set_dofs(maker().possible_dofs(grasp_, grasped_body()), fork_.switch_off_time)) {
     report.message = "switched; the strain of DOFs that were switched off returns to zero with a time constant of " +
                      std::to_string(fork_.switch_off_time) + " s and releases its energy";

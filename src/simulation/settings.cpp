@@ -96,22 +96,22 @@ std::vector<Field> scene_fields(S& s) {
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
       integer("styluses", 1, 255, "number of styluses, each with its tool; silent ones do nothing", s.styluses),
       number("hand.scale", "–", between(1e-3, 1e3),
-             "length in the world per length of the hand's motion from the origin; rotations are not scaled",
-             s.hand_scale),
+             "metres in the world per metre of the hand, from the origin; rotations are not scaled", s.hand_scale),
       number("hand.time_scale", "–", between(1e-3, 1e3),
-             "time in the world per time of the hand: at 0.5 the world is in slow motion", s.hand_time_scale),
+             "seconds in the world per second of the hand; below 1 the world runs in slow motion", s.hand_time_scale),
       integer("clutch.button", 2, 63, "the stylus button that lets the hand move without its tool", s.clutch_button),
   };
 }
 
 std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
   return {
-      choice("integrator", "the method that integrates the motion; paper: only of one fork, otherwise exponential",
+      choice("integrator",
+             "the method that integrates the motion; paper: while one fork holds the object, otherwise exponential",
              d.integrator),
       number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample", d.step),
       number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
              "0: fixed steps; otherwise steps short enough to keep the error of the run near this value", d.tolerance),
-      flag("error_bound", "propagate the error of the run and report a bound of it", d.error_bound),
+      flag("error_bound", "propagate the error of the run and report a bound on it", d.error_bound),
       choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m (not with tool spring)", d.inertia),
   };
 }
@@ -131,9 +131,8 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
       number("fork.damping.stretch", "–", ratio, "damping ratio of stretching; 1 is critical", zeta.stretch),
       number("fork.damping.bend", "–", ratio, "damping ratio of bending; 1 is critical", zeta.bend),
       number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical", zeta.torsion),
-      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "axial force per speed of extension", c.stretch),
-      number("fork.damping_coefficient.bend", "N·s/m", coefficient, "transverse force per unit speed of deflection",
-             c.bend),
+      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "force per unit extension rate", c.stretch),
+      number("fork.damping_coefficient.bend", "N·s/m", coefficient, "force per unit deflection rate", c.bend),
       number("fork.damping_coefficient.torsion", "N·m·s/rad", coefficient, "axial moment per unit twist rate",
              c.torsion),
       choice("fork.damping_law",
@@ -145,7 +144,8 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
       flag("fork.dofs.bend", "the fork bends; false: rigid", f.dofs.bend),
       flag("fork.dofs.torsion", "the fork twists; false: rigid", f.dofs.torsion),
       number("fork.switch_off_time", "s", between(1e-6, 1e3),
-             "time constant with which a degree of freedom that is switched off while strained returns to zero strain",
+             "T: a degree of freedom that is switched off while strained returns to zero, critically damped; from rest "
+             "it falls as (1 + t/T) exp(−t/T), to 1 % in 6.6 T",
              f.switch_off_time),
   };
 }
@@ -204,7 +204,7 @@ std::vector<Field> grasp_fields(S& s) {
       number("dropout_after", "s", validation::positive_or_infinite(),
              "if the gap between two samples is longer, the handle is at rest until the next sample", s.dropout_after),
       number("external_wrench_timeout", "s", between(1e-3, 10.0),
-             "if no external wrench of a machine arrives for longer, it is zero until the next one", s.wrench_timeout),
+             "how long a machine's wrench acts if no next one comes; then it is zero", s.wrench_timeout),
       integer("bisection_levels", 0, 30,
               "number of bisections that find the end of a step in which contact begins (section 5 of the paper); 0: "
               "the time of impact is computed instead",
@@ -243,7 +243,8 @@ const Field& find_field(const std::vector<Field>& table, const std::string& key,
   if (found != table.end()) return *found;
   std::vector<std::string> known;
   for (const Field& field : table) known.push_back(field.description.key);
-  throw validation::InputError(validation::one_line(where + ": " + key + ": " + validation::unknown_key(key, known)));
+  throw validation::InputError(
+      validation::one_line(validation::prefix(where, key) + validation::unknown_key(key, known)));
 }
 
 /// Refuses combinations of values that are each valid but incompatible.
@@ -257,8 +258,8 @@ void check_together(const S& settings, const std::string& where) {
                        "the same for stretch, bend and torsion if the damping law is modal");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    throw validation::InputError(where +
-                                 ": grasp.tip_in_object: needs start.follow: true, so that the object can move to it");
+    throw validation::InputError(validation::prefix(where, "grasp.tip_in_object") +
+                                 "needs start.follow: true, so that the object can move to it");
   }
 }
 
@@ -276,24 +277,25 @@ void validate(const SimulationSettings& settings, const std::string& where) {
 }
 
 bool ForkChange::changes_springs() const {
-  return stretch_stiffness || bend_stiffness || torsion_stiffness || damping_ratio || damping_coefficient ||
-         damping_law;
+  return !stiffness.empty() || !damping_ratio.empty() || !damping_coefficient.empty() || damping_law;
 }
 
 rod::ForkSettings ForkChange::applied_to(rod::ForkSettings fork) const {
-  fork.dofs = dofs.value_or(fork.dofs);
-  fork.stiffness.stretch = stretch_stiffness.value_or(fork.stiffness.stretch);
-  fork.stiffness.bend = bend_stiffness.value_or(fork.stiffness.bend);
-  fork.stiffness.torsion = torsion_stiffness.value_or(fork.stiffness.torsion);
-  fork.damping_ratio = damping_ratio.value_or(fork.damping_ratio);
-  fork.damping_coefficient = damping_coefficient.value_or(fork.damping_coefficient);
+  fork.dofs = dofs.applied_to(fork.dofs);
+  fork.stiffness = stiffness.applied_to(fork.stiffness);
+  fork.damping_ratio = damping_ratio.applied_to(fork.damping_ratio);
+  fork.damping_coefficient = damping_coefficient.applied_to(fork.damping_coefficient);
   fork.damping_law = damping_law.value_or(fork.damping_law);
   return fork;
 }
 
 ForkChange change_to(const rod::ForkSettings& fork) {
-  return {fork.dofs,          fork.stiffness.stretch,   fork.stiffness.bend, fork.stiffness.torsion,
-          fork.damping_ratio, fork.damping_coefficient, fork.damping_law};
+  const auto all = [](const rod::PerDof& v) { return rod::PerDofChange<double>{v.stretch, v.bend, v.torsion}; };
+  return {{fork.dofs.stretch, fork.dofs.bend, fork.dofs.torsion},
+          all(fork.stiffness),
+          all(fork.damping_ratio),
+          all(fork.damping_coefficient),
+          fork.damping_law};
 }
 
 dynamics::DynamicsSettings DynamicsChange::applied_to(dynamics::DynamicsSettings dynamics) const {
@@ -307,22 +309,21 @@ bool ObjectEdit::operator==(const ObjectEdit& other) const {
   const auto same_pose = [&] {
     return X_WL.has_value() == other.X_WL.has_value() && (!X_WL || X_WL->matrix() == other.X_WL->matrix());
   };
-  return action == other.action && object == other.object && urdf == other.urdf && mass == other.mass &&
+  return action == other.action && name == other.name && urdf == other.urdf && mass == other.mass &&
          friction == other.friction && same_pose();
 }
 
 void validate(const ObjectEdit& edit) {
-  const std::string where = "edit";
   if (edit.action > ObjectEdit::Action::friction) {
-    validation::refuse(where, "action", std::to_string(static_cast<int>(edit.action)),
+    validation::refuse("", "action", std::to_string(static_cast<int>(edit.action)),
                        "one of " + validation::join(validation::names<ObjectEdit::Action>()));
   }
   if (edit.X_WL && !edit.X_WL->matrix().allFinite()) {
-    validation::refuse(where, "pose", "NaN or infinity", "a finite pose");
+    validation::refuse("", "pose", "NaN or infinity", "a finite pose");
   }
-  if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse(where, "pose", "", "a pose to move to");
-  validation::check_number(where, "mass", edit.mass, between(0.0, 1e12));
-  validation::check_number(where, "friction", edit.friction, validation::not_negative());
+  if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse("", "pose", "", "a pose to move to");
+  validation::check_number("", "mass", edit.mass, between(0.0, 1e12));
+  validation::check_number("", "friction", edit.friction, validation::not_negative());
 }
 
 std::vector<SettingDescription> setting_descriptions() {
@@ -333,7 +334,8 @@ std::vector<SettingDescription> setting_descriptions() {
 }
 
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings) {
-  if (!values.IsMap()) throw validation::InputError(where + ": top level: must be a map of settings");
+  if (!values.IsMap())
+    throw validation::InputError(validation::prefix(where, "top level") + "must be a map of settings");
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;
@@ -341,7 +343,7 @@ void apply_settings(const YAML::Node& values, const std::string& where, Simulati
   std::set<std::string> seen;
   for (const auto& [key, node] : flat) {
     const std::string line = node.Mark().is_null() ? "" : ":" + std::to_string(node.Mark().line + 1);
-    if (!seen.insert(key).second) throw validation::InputError(where + line + ": " + key + ": given twice");
+    if (!seen.insert(key).second) throw validation::InputError(validation::prefix(where + line, key) + "given twice");
     find_field(table, key, where + line).read(node, where);
   }
   settings = changed;

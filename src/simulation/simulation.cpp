@@ -29,27 +29,26 @@ using Action = ObjectEdit::Action;
 
 /// Applies an edit to the scene. Throws InputError if it does not match the scene.
 void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bool massless, scene::Scene& scene) {
-  const std::string where = "edit";
   validate(edit);
   if (edit.action == Action::add) {
-    scene.bodies.push_back(scene::read_object(edit.object, edit.urdf, edit.X_WL, scene, roots, where));
-    if (!scene.bodies.back().movable) validation::refuse(where, "urdf", edit.urdf, "of an object whose root has mass");
-    if (massless) scene::set_mass(scene.bodies.back(), 0.0, where);
+    scene.bodies.push_back(scene::read_object(edit.name, edit.urdf, edit.X_WL, scene, roots, ""));
+    if (!scene.bodies.back().movable) validation::refuse("", "urdf", edit.urdf, "of an object whose root has mass");
+    if (massless) scene::set_mass(scene.bodies.back(), 0.0, "");
     return;
   }
-  const std::size_t index = scene::movable_body(scene, edit.object, where, "name");
-  if (edit.action == Action::mass) scene::set_mass(scene.bodies[index], edit.mass, where);
+  const std::size_t index = scene::movable_body(scene, edit.name, "", "name");
+  if (edit.action == Action::mass) scene::set_mass(scene.bodies[index], edit.mass, "");
   if (edit.action == Action::friction) scene.bodies[index].material.friction = edit.friction;
   if (edit.action != Action::remove) return;
   scene.bodies.erase(scene.bodies.begin() + static_cast<std::ptrdiff_t>(index));
-  scene.targets.erase(edit.object);
+  scene.targets.erase(edit.name);
 }
 
 /// Appends an edit and drops those that it supersedes.
 std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& edit) {
   bool was_added = false;
   const auto superfluous = [&](const ObjectEdit& other) {
-    const bool goes = other.object == edit.object && other.action != Action::remove &&
+    const bool goes = other.name == edit.name && other.action != Action::remove &&
                       (edit.action == Action::remove || other.action == edit.action);
     was_added |= goes && other.action == Action::add;
     return goes;
@@ -62,7 +61,7 @@ std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& ed
 /// The scene with the settings and the edits applied. Throws InputError if they do not match.
 scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, const std::vector<ObjectEdit>& edits,
                     const std::vector<std::string>& roots) {
-  validate(settings, scene.path);
+  validate(settings, "");
   scene.gravity = settings.gravity.value_or(scene.gravity);
   scene.force_scale = settings.force_scale.value_or(scene.force_scale);
   scene.contact = settings.contact.value_or(scene.contact);
@@ -71,7 +70,7 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   }
   if (settings.tool) scene.tool = validation::name_of(*settings.tool);
   for (const ObjectEdit& edit : edits) make_edit(edit, roots, settings.massless, scene);
-  if (!settings.grasp.object.empty()) scene::movable_body(scene, settings.grasp.object, scene.path, "grasp.object");
+  if (!settings.grasp.object.empty()) scene::movable_body(scene, settings.grasp.object, "", "grasp.object");
   return scene;
 }
 
@@ -89,9 +88,9 @@ void check_origin(const std::string& saved, const std::string& present) {
   std::istringstream of_saved(saved), of_present(present);
   for (std::string was, is; std::getline(of_present, is);) {
     if (!std::getline(of_saved, was)) was = "nothing saved";
-    if (was != is) validation::refuse("restore", "state", "one with " + was, "one with " + is);
+    if (was != is) validation::refuse("", "state", "one with " + was, "one with " + is);
   }
-  if (std::string more; std::getline(of_saved, more)) validation::refuse("restore", "state", more, "one without it");
+  if (std::string more; std::getline(of_saved, more)) validation::refuse("", "state", more, "one without it");
 }
 
 /// Returns whether this change would change the fork.
@@ -132,7 +131,7 @@ struct Simulation::Impl {
   }
   Hand& hand(std::size_t index) {
     if (index < hands.size()) return hands[index];
-    validation::refuse("simulation", "hand", std::to_string(index), "less than " + std::to_string(hands.size()));
+    validation::refuse("", "hand", std::to_string(index), "less than " + std::to_string(hands.size()));
   }
   double in_world(double t) const { return settings.hand_time_scale * t; }
   /// Converts world time to the hand's; exact for the last requested time, so that requesting it again changes nothing.
@@ -445,7 +444,7 @@ bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand)
 }
 
 void Simulation::push_edge(double t, motion::ButtonEdge press, std::size_t hand) {
-  validation::check_number("button", "t", t, validation::any_number());
+  validation::check_number("", "t", t, validation::any_number());
   impl_->hand(hand).stylus().push(impl_->in_world(t), press);
 }
 
@@ -467,7 +466,7 @@ double Simulation::next_edge() const {
 }
 
 AdvanceReport Simulation::advance(double t_end) {
-  validation::check_number("advance", "t_end", t_end, validation::any_number());
+  validation::check_number("", "t_end", t_end, validation::any_number());
   AdvanceReport report;
   impl_->requested_time = t_end;
   impl_->advance(impl_->in_world(t_end), report);
@@ -484,8 +483,8 @@ void Simulation::reset() {
 
 void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
   for (const auto& [name, X] : X_WO) {
-    scene::movable_body(impl_->scene, name, "place", "name");
-    if (!X.matrix().allFinite()) validation::refuse("place", name, "NaN or infinity", "a finite pose");
+    scene::movable_body(impl_->scene, name, "", "name");
+    if (!X.matrix().allFinite()) validation::refuse("", name, "NaN or infinity", "a finite pose");
   }
   release();
   for (const auto& [name, X] : X_WO) impl_->objects.place(*impl_->objects.find(name), X, impl_->now);
@@ -528,7 +527,7 @@ void Simulation::Impl::check(const ForkChange& fork_change, const DynamicsChange
   changed.dynamics = dynamics_change.applied_to(settings.dynamics);
   for (const Hand& hand : hands) {
     changed.fork = fork_change.applied_to(hand.fork());
-    validate(changed, "change");
+    validate(changed, "");
   }
 }
 
@@ -559,21 +558,21 @@ void Simulation::change(const ForkChange& fork_change, const DynamicsChange& dyn
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
   const std::string other = objects.inside_of(*objects.find(name), X_WO);
   if (other.empty()) return;
-  validation::refuse("edit", "pose", "one at which it overlaps " + other,
+  validation::refuse("", "pose", "one at which it overlaps " + other,
                      "a pose at which " + name + " overlaps no other body by more than 0.1 mm");
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
-  const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.object, "edit", "name")];
-  const std::size_t object = *objects.find(edit.object);
+  const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.name, "", "name")];
+  const std::size_t object = *objects.find(edit.name);
   for (const Hand& hand : hands) {
     if (hand.carried() == object) {
-      validation::refuse("edit", "name", edit.object + ", which a tool holds or pushes",
+      validation::refuse("", "name", edit.name + ", which a tool holds or pushes",
                          "an object that no tool holds or pushes");
     }
   }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
-  check_place(edit.object, X_WO);
+  check_place(edit.name, X_WO);
   objects.wake_supported_by(object, now);
   objects.place(object, X_WO, now);
 }
@@ -585,10 +584,10 @@ void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   settings.dynamics = before.settings.dynamics;
   if (edit.action == Action::add) {
     objects.continue_from(before.objects, now);
-    check_place(edit.object, scene.bodies.back().X_WO);
+    check_place(edit.name, scene.bodies.back().X_WO);
   }
   // From here on nothing can fail.
-  const std::size_t edited = before.objects.find(edit.object).value_or(0);
+  const std::size_t edited = before.objects.find(edit.name).value_or(0);
   before.with_handover([&] {
     for (Hand& hand : before.hands) {
       hand.end_touch(now);
@@ -598,7 +597,7 @@ void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   if (edit.action == Action::remove) before.objects.wake_supported_by(edited, now);
   objects.continue_from(before.objects, now);
   for (std::size_t i = 0; i < hands.size(); ++i) {
-    hands[i].continue_from(before.hands[i], edit.action == Action::mass ? edit.object : "", now);
+    hands[i].continue_from(before.hands[i], edit.action == Action::mass ? edit.name : "", now);
   }
 }
 
@@ -616,7 +615,7 @@ ChangeReport Simulation::edit(const ObjectEdit& edit, const std::vector<std::str
     impl_ = std::move(next);
   }
   report.elastic_energy_after = impl_->elastic_energy();
-  report.message = validation::name_of(edit.action) + ": " + edit.object;
+  report.message = validation::name_of(edit.action) + ": " + edit.name;
   return report;
 }
 
@@ -633,8 +632,7 @@ ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
   for (Hand* of : impl_->chosen(hand)) done = of->calibrate(change, impl_->now) || done;
-  if (!done)
-    throw validation::InputError("calibrate: no object is held by a fork or spring; call it while one is held");
+  if (!done) throw validation::InputError("no object is held by a fork or spring, so there is nothing to calibrate");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }
@@ -663,7 +661,7 @@ void Simulation::restore(const SimulationState& state) {
     impl_ = std::move(edited);
   } catch (const std::exception& error) {
     impl_->set(present.words_);
-    throw validation::InputError(std::string("restore: not a saved state: ") + error.what());
+    throw validation::InputError(std::string("state: not a saved state: ") + error.what());
   }
 }
 

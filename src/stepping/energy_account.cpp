@@ -29,7 +29,7 @@ Difference difference(const dynamics::HeldBody& body, const dynamics::HandleForc
            weight * (o.X.translation().z() - handle.X_WH.translation().z());
   };
   const double moving = kinetic(a), found = potential(a, state);
-  const Wrench& load = body.external_wrench();
+  const Wrench& load = body.load();
   const Vector3d moved = a.X.translation() - b.X.translation(), turned = b.X.linear() * math::turn_between(b.X, a.X);
   return {moved.norm(), turned.norm(),
           moving - kinetic(b) + found - potential(b, other) - load.force.dot(moved) - load.moment.dot(turned),
@@ -104,7 +104,7 @@ double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForci
   const Vector3d p_at_end = position(end);
   // Weight, the handle's acceleration and the contact's force are constant on the way; other loads are as at the begin.
   const auto R_HW = handle.X_WH.linear().transpose();
-  const Vector3d force = R_HW * body.external_wrench().force - body.body().mass * handle.acceleration_less_gravity;
+  const Vector3d force = R_HW * body.load().force - body.body().mass * handle.acceleration_less_gravity;
   const Wrench others = body.read_couplings(still, at_rest).pull_W;
   Vector6d accounted;
   accounted << force + R_HW * others.force, R_HW * others.moment;

@@ -128,8 +128,7 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   const dynamics::HeldBody& body = span.body;
   Tried tried{state};
   tried.estimate = integrator_->step(body, span.handle, t, h, tried.state);
-  tried.solved = tried.estimate.converged && usable(tried.state);
-  if (!tried.solved) return tried;
+  if (!tried.estimate.converged || !usable(tried.state)) return tried;
   const dynamics::HandleForcing end = body.forcing(span.handle, t + h);
   const dynamics::StrainState corrected{tried.state.q - tried.estimate.q_error,
                                         tried.state.q_dot - tried.estimate.q_dot_error};
@@ -138,6 +137,7 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   tried.angle_error = error.angle;
   tried.energy_error = std::abs(error.energy);
   tried.energy = error.present;
+  tried.solved = std::isfinite(tried.position_error + tried.angle_error + tried.energy_error);
   tried.in_range = body.shape().admissible(body.full_state(t + h, tried.state).q);
   return tried;
 }
@@ -287,13 +287,13 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::S
       const auto amplitude = [&](const rod::StrainVector& q, const rod::StrainVector& q_dot) {
         return std::hypot(span.length(t + dt, tried.state, q), span.length(t + dt, tried.state, memory.swing * q_dot));
       };
-      const double allowed = std::max(tolerance_ - amplitude(error.q, error.q_dot), tolerance_ * dt / undamped_horizon);
+      const double allowed = std::max(tolerance_ * dt / undamped_horizon, tolerance_ - amplitude(error.q, error.q_dot));
       const double local = amplitude(tried.estimate.q_error, tried.estimate.q_dot_error);
       error.q += tried.estimate.q_error;
       error.q_dot += tried.estimate.q_dot_error;
       const double size = amplitude(error.q, error.q_dot);
       good = local <= allowed || size <= tolerance_;
-      if (!std::isfinite(size)) {
+      if (!std::isfinite(size)) {  // it cannot be carried on: the maximum above leaves it out
         error = span.body.zero_state();
       } else if (size > tolerance_) {  // short steps take no error back: more than this need not be known
         error.q *= tolerance_ / size;

@@ -31,7 +31,7 @@ void ForkBody::set_hand(const motion::MotionSegment& hand, double t) {
 
 void ForkBody::set_load(const Wrench& load_W) {
   if (is_zero(load_W - load_W_)) return;
-  held_.set_external_wrench(held_.external_wrench() - (load_W_ - load_W));
+  held_.set_load(held_.load() - (load_W_ - load_W));
   load_W_ = load_W;
   sleep_ = Sleep();
 }
@@ -101,7 +101,7 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   const Twist rate = as_hand ? Twist() : state_.proxy.rate_to(offset, hand_.at(state_.t + h).X.translation(), h);
   const motion::MotionSegment motion = as_hand ? hand_ : state_.proxy.motion(hand_, state_.t, h, offset, rate);
   dynamics::StrainState next = state_.strain;
-  held_.set_external_wrench(held_.size() > 0 ? math::sum(contact_W, load_W_) : load_W_);
+  held_.set_load(held_.size() > 0 ? math::sum(contact_W, load_W_) : load_W_);
   if (held_.size() > 0) {
     const stepping::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
     if (!step.accepted) return false;

@@ -21,7 +21,7 @@ double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, 
 Wrench ForkBody::rod_load(const motion::MotionState& o) const {
   const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
   const Vector3d& w = o.velocity.angular;
-  const Wrench& contact = held_.external_wrench();
+  const Wrench& contact = held_.load();
   const Wrench others = held_.read_couplings(handle(), state_.strain).pull_W;
   return {
       held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force - others.force,

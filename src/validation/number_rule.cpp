@@ -47,8 +47,12 @@ std::string NumberRule::text() const {
   return infinity_allowed ? text + ", or .inf" : text;
 }
 
+std::string prefix(const std::string& where, const std::string& key) {
+  return (where.empty() ? "" : where + ": ") + key + ": ";
+}
+
 void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
-  const std::string place = where + ": " + key + ": ";
+  const std::string place = prefix(where, key);
   if (value.empty()) throw InputError(one_line(place + "missing; give " + rule));
   const auto now = renamed_values().find(value);
   const std::string allowed = now == renamed_values().end() ? rule : now->second + ", which has replaced it";

@@ -83,6 +83,9 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(Services, Fuzz,
                          testing::Combine(testing::Values(Target{"calls", calls, 60}), testing::Range(1u, 5u)),
                          name_of);
+INSTANTIATE_TEST_SUITE_P(Rods, Fuzz,
+                         testing::Combine(testing::Values(Target{"steps", steps, 60}), testing::Range(1u, 5u)),
+                         name_of);
 
 }  // namespace
 }  // namespace spring_workbench::fuzz

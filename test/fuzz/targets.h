@@ -23,6 +23,8 @@ void scene(std::string_view bytes);
 /// Calls of services, samples and buttons on a running simulation: a byte selects the call, the following ones its
 /// numbers.
 void calls(std::string_view bytes);
+/// Steps of a held body: the first bytes select fork, mass and integrator, the following ones the steps and a hand.
+void steps(std::string_view bytes);
 
 inline void require(bool law, const std::string& text) {
   if (law) return;

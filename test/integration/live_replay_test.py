@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """A live run is its replay: three hands, what three machines measure, services and live settings changed at random,
 recorded with rosbag; what was committed equals what `replay` makes of the bag, bit by bit, and the state's hash at
-every comparison. `replay` makes each change again at its time, and it leads to the recorded state. Several sessions run
-at the same time, each with a master of its own, and beside them a busy process for each processor.
+every comparison. `replay` makes each change again at its time, and it leads to the recorded state. Every other recorder
+is connected to the changes before it is to the inputs, which another listener makes the node publish already. Several
+sessions run at the same time, each with a master of its own, and beside them a busy process for each processor.
 
 LIVE_SEEDS: how many sessions; LIVE_FIRST: the first seed; LIVE_LENGTH: of each [s]; LIVE_AT_ONCE: how many at the same
 time."""
@@ -15,6 +16,7 @@ import random
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -59,6 +61,7 @@ SCENE = os.path.join(PACKAGE, "scenes", "single_box.urdf")
 MANIPULATION = roslib.packages.find_node("spring_workbench", "manipulation")
 REPLAY = roslib.packages.find_node("spring_workbench", "replay")
 TOPICS = ["/manipulation/" + name for name in ("accepted", "changes", "objects")]
+JOURNAL = TOPICS[:2]
 VIEWED = ["/tf", *("/manipulation/" + name for name in ("markers", "display/objects", "display/fork"))]
 
 
@@ -214,7 +217,7 @@ def record(seed, bag):
     options += ["scene:=" + SCENE, "contact:=dynamic", "styluses:=%d" % MANY]
     node = subprocess.Popen([*MANIPULATION, *("_" + option for option in options)])
     services = Services(seed)
-    recorder = subprocess.Popen([sys.executable, __file__, "--record", bag])
+    recorder = subprocess.Popen([sys.executable, __file__, "--record", bag, *(["--late"] if seed % 2 else [])])
     changes = Listener("manipulation/changes", Change)
     listener = rospy.Subscriber("manipulation/accepted", Accepted, lambda _: None)
     viewers = [rospy.Subscriber(topic, rospy.AnyMsg, lambda _: None) for topic in viewed]
@@ -238,22 +241,57 @@ def record(seed, bag):
     end(node)
 
 
-def record_topics():
-    """Writes a bag until it is interrupted. The queue of `rosbag record` holds 100 messages, which a busy machine
-    overruns; the ones here have no end."""
-    rospy.init_node("record", disable_rostime=True)
-    with rosbag.Bag(sys.argv[2], "w") as bag:
-        lock = threading.Lock()
+class Recorder:
+    """Writes a bag. The queue of `rosbag record` holds 100 messages, which a busy machine overruns; the ones here have
+    no end. Each topic arrives in order: the run is whole up to what the slower one has brought."""
 
-        def write(message, topic):
-            kind = message._connection_header
-            with lock:
-                bag.write(topic, (kind["type"], message._buff, kind["md5sum"], None), raw=True)
+    def __init__(self, bag):
+        self.bag, self.lock = bag, threading.Lock()
+        self.indices = {topic: [] for topic in JOURNAL}
+        self.last = math.inf
+        self.subscribers = []
 
-        subscribers = [rospy.Subscriber(topic, rospy.AnyMsg, write, topic) for topic in TOPICS]
-        rospy.spin()
-        for subscriber in subscribers:
+    def subscribe(self, *topics):
+        self.subscribers += [rospy.Subscriber(topic, rospy.AnyMsg, self.write, topic) for topic in topics]
+
+    def write(self, message, topic):
+        kind = message._connection_header
+        with self.lock:
+            if topic in JOURNAL:
+                (frame_length,) = struct.unpack_from("<I", message._buff, 12)
+                (index,) = struct.unpack_from("<Q", message._buff, 16 + frame_length)
+                self.indices[topic].append(index)
+                if index > self.last:
+                    return
+            self.bag.write(topic, (kind["type"], message._buff, kind["md5sum"], None), raw=True)
+
+    def newest(self):
+        return [indices[-1] for indices in self.indices.values()]
+
+    def end(self):
+        """Ends both topics of the journal with the same message."""
+        with self.lock:
+            self.last = max(self.newest())
+        wait_for(lambda: min(self.newest()) >= self.last, "the rest of the journal")
+        for subscriber in self.subscribers:
             subscriber.unregister()
+
+
+def record_topics(late):
+    """Writes a bag until it is interrupted."""
+    rospy.init_node("record", disable_rostime=True, disable_signals=True)
+    interrupted = threading.Event()
+    signal.signal(signal.SIGINT, lambda *_: interrupted.set())
+    with rosbag.Bag(sys.argv[2], "w") as bag:
+        recorder = Recorder(bag)
+        recorder.subscribe(TOPICS[1], TOPICS[2])
+        if late:
+            changes = recorder.indices[TOPICS[1]]
+            wait_for(lambda: changes and changes[-1] - changes[0] >= len(changes), "an input that is missed")
+        recorder.subscribe(TOPICS[0])
+        interrupted.wait()
+        recorder.end()
+    rospy.signal_shutdown("interrupted")
 
 
 def replay(bag, out):
@@ -282,8 +320,11 @@ def compare(messages, rows):
     for change in messages[TOPICS[1]]:
         if not change.state and math.isfinite(change.committed):
             zeros.add(change.header.stamp.to_nsec() - round(change.committed * 1e9))
-    # Another listener's journal may have been under way: this one begins with the first state.
-    begin = next(m.header.stamp.to_nsec() for m in messages[TOPICS[1]] if m.state)
+    # Another listener's journal may have been under way: this one begins with the first state from which on no message
+    # is missing.
+    indices = sorted(m.index for topic in JOURNAL for m in messages[topic])
+    complete = max((b for a, b in zip(indices, indices[1:]) if b > a + 1), default=indices[0])
+    begin = next(m.header.stamp.to_nsec() for m in messages[TOPICS[1]] if m.state and m.index >= complete)
     end = messages[TOPICS[1]][-1].header.stamp.to_nsec()
     replayed = {}  # where no hand is known, the stamp is the clock's: the state is that after a change
     for (_, name), states in rows.items():
@@ -403,6 +444,6 @@ if __name__ == "__main__":
     if "--session" in sys.argv:
         session()
     elif "--record" in sys.argv:
-        record_topics()
+        record_topics("--late" in sys.argv)
     else:
         rostest.rosrun("spring_workbench", "live_replay_test", LiveReplay, sys.argv)

@@ -2,6 +2,7 @@
 """A ROS master that hangs or dies under the nodes: the hand and connected clients are not affected, /diagnostics
 reports it, and the nodes can be stopped. A new master lists all of them, and a held object stays held. The test has its
 own master. MASTER_OUTAGE: duration [s]."""
+import contextlib
 import math
 import os
 import signal
@@ -37,31 +38,46 @@ def free_port():
 
 
 class Feeder:
-    """Samples of a hand on the wall clock, and the lag of the display behind them."""
+    """Samples of a hand on the wall clock, and how many more were sent before the state at each was received: the lag
+    of the output behind the input in cycles of the hand, whatever the clock says."""
 
     def __init__(self):
         self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
-        self.lags = []
-        self.shown = rospy.Subscriber("manipulation/display/objects", ObjectStates, self.on_shown, queue_size=1000)
+        self.sent, self.lags = {}, {}  # by stamp, to a microsecond
+        self.objects = rospy.Subscriber("manipulation/objects", ObjectStates, self.on_state, queue_size=1000)
 
-    def on_shown(self, message):
-        self.lags.append(time.time() - message.header.stamp.to_sec())
+    def on_state(self, message):
+        stamp = round(message.header.stamp.to_sec(), 6)
+        if stamp in self.sent:
+            self.lags[stamp] = len(self.sent) - 1 - self.sent[stamp]
 
     def run(self, seconds):
-        """Runs for that time; returns the lags, sorted."""
-        self.lags = []
-        begin = time.time()
-        while time.time() < begin + seconds:
-            x = 0.02 + 0.05 * (time.time() - begin) / seconds
-            self.tf.publish(TFMessage([stylus_transform(rospy.Time.from_sec(time.time()), (x, 0.0, 0.3), DOWN)]))
-            time.sleep(PERIOD)
-        return sorted(self.lags)
+        """Sends samples for that time; returns how many, and the sorted lags of the states that were received."""
+        begin, count = time.time(), round(seconds / PERIOD)
+        self.sent, self.lags = {}, {}
+        for k in range(count + 1):  # the last one completes the one before
+            stamp = round(begin + k * PERIOD, 6)
+            time.sleep(max(stamp - time.time(), 0.0))
+            self.sent[stamp] = k
+            x = 0.02 + 0.05 * k / count
+            self.tf.publish(TFMessage([stylus_transform(rospy.Time.from_sec(stamp), (x, 0.0, 0.3), DOWN)]))
+        *_, last, _ = self.sent
+        wait_for(lambda: last in self.lags, "the state at the last sample")
+        return count, sorted(lag for stamp, lag in self.lags.items() if stamp <= last)
+
+
+def before_others():
+    """Lets this process run before those without real-time priority, where the host permits it: a busy processor then
+    delays neither the hand nor the node."""
+    with contextlib.suppress(PermissionError):
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
 
 
 def write_hand(path):
-    """A minute: down to the box, and after a second up and in a circle with it."""
+    """Down to the box, and after a second up and in a circle with it; for longer than a test, because the committed
+    state waits for the buttons of a driver that falls silent."""
     with open(path, "w", encoding="utf-8") as file:
-        for i in range(50 * 60):
+        for i in range(round(50 * (60 + 2 * OUTAGE))):
             t = 0.02 * i
             up, angle = min(max(t - 2.0, 0.0), 1.0), max(t - 3.0, 0.0)
             x, y, z = 0.05 * math.sin(angle), 0.05 * (1.0 - math.cos(angle)), 0.22 + 0.1 * up
@@ -93,7 +109,8 @@ class Master(unittest.TestCase):
     def start_client(self, function):
         """A process of its own, since its master is another one; it does what it is asked to."""
         pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-        self.client = subprocess.Popen([sys.executable, __file__, function], env=self.environment, **pipes)
+        command = [sys.executable, __file__, function]
+        self.client = subprocess.Popen(command, env=self.environment, preexec_fn=before_others, **pipes)
         self.addCleanup(self.end, self.client)
 
     def start_master(self):
@@ -103,7 +120,7 @@ class Master(unittest.TestCase):
 
     def start(self, name, *arguments):
         command = roslib.packages.find_node("spring_workbench", name)
-        self.nodes[name] = subprocess.Popen([*command, *arguments], env=self.environment)
+        self.nodes[name] = subprocess.Popen([*command, *arguments], env=self.environment, preexec_fn=before_others)
         self.addCleanup(self.end, self.nodes[name])
 
     @staticmethod
@@ -127,16 +144,14 @@ class Master(unittest.TestCase):
     def check(self, outage):
         self.start_driver("stylus_of_driver")  # the stylus is the client's
         self.start_client("hand")
-        text = "%s a master: %s pictures, lag 50 %%: %s s, 99 %%: %s s, largest: %s s"
-        before = self.ask("run")
-        print(text % ("with", *before))
+        text = "%s a master: %s samples, states at %s; samples sent meanwhile 50 %%: %s, 99 %%: %s, most: %s"
+        with_master = [int(word) for word in self.ask("run")]
+        print(text % ("with", *with_master))
         outage()
-        without = self.ask("run")
+        without = [int(word) for word in self.ask("run")]
         print(text % ("without", *without))
-        self.assertGreater(int(without[0]), 0.5 * OUTAGE / PERIOD)
-        # A node that waits for its master stands still for seconds; on a busy machine pictures are late with one, too.
-        for k in (1, 2, 3):
-            self.assertLess(float(without[k]), 0.1 * k + 2.0 * float(before[k]))
+        self.assertEqual(without[:2], [round(OUTAGE / PERIOD)] * 2)  # none is lost
+        self.assertLessEqual(without[3], with_master[3] + 1)  # nor are 99 % later than before by more than a cycle
         self.assertEqual(self.ask("service"), ["True"])
         self.assertEqual(self.ask("diagnostics"), ["True"])
         begin = time.monotonic()
@@ -234,11 +249,12 @@ def watch():
         if line.strip() == "held":
             print(held.held(), flush=True)
         else:
-            print_lags(held.run(1.0))
+            gaps = held.run(1.0)
+            print_quantiles(len(gaps), of=gaps, form="%.4f")
 
 
-def print_lags(lags):
-    print(len(lags), *["%.4f" % quantile(lags, share) for share in (0.5, 0.99, 1.0)], flush=True)
+def print_quantiles(*counts, of, form):
+    print(*counts, *[form % quantile(of, share) for share in (0.5, 0.99, 1.0)], flush=True)
 
 
 def hand():
@@ -249,11 +265,12 @@ def hand():
     rospy.wait_for_service("manipulation/set_stiffness", DEADLINE)
     service = rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness, persistent=True)
     service(stretch=500.0)
-    wait_for(lambda: feeder.tf.get_num_connections() > 0 and feeder.shown.get_num_connections() > 0, "the node")
+    wait_for(lambda: feeder.tf.get_num_connections() > 0 and feeder.objects.get_num_connections() > 0, "the node")
     feeder.run(1.0)
     for line in sys.stdin:
         if line.strip() == "run":
-            print_lags(feeder.run(OUTAGE))
+            count, lags = feeder.run(OUTAGE)
+            print_quantiles(count, len(lags), of=lags, form="%d")
         elif line.strip() == "service":
             print(service(stretch=600.0).success, flush=True)
         else:

@@ -18,9 +18,8 @@ DOWN = [1.0, 0.0, 0.0, 0.0]  # the fork points down
 
 def holding(settings=None):
     """A simulation with the box in a hand at rest above the bench."""
-    simulation = sw.Simulation(
-        sw.load_scene(BOX), sw.SimulationSettings({"contact": "none", "grasp": {"object": "box"}, **(settings or {})})
-    )
+    values = {"contact": "none", "grasp": {"object": "box"}, **(settings or {})}
+    simulation = sw.Simulation(sw.load_scene(BOX), values)
     for t in [0.0, 10.0]:
         simulation.push_stylus(t, sw.pose([0.0, 0.0, 0.23], DOWN))
     return simulation
@@ -84,7 +83,7 @@ def test_states_are_arrays_of_the_documented_shapes():
 
 
 def test_a_free_body_falls_on_a_parabola():
-    simulation = sw.Simulation(sw.load_scene(BOX), sw.SimulationSettings({"contact": "none"}))
+    simulation = sw.Simulation(sw.load_scene(BOX), {"contact": "none"})
     simulation.advance(0.0)
     simulation.place({"box": sw.pose([0.0, 0.0, 5.0])})
     simulation.advance(0.5)
@@ -158,9 +157,10 @@ def test_changes_are_made_completely_or_not_at_all():
     with pytest.raises(sw.InputError, match="step"):
         simulation.change(stiffness=[1000.0, 400.0, 3.0], step=-1.0)
     for wrong in [5.0, [1.0, 2.0], ["a", "b", "c"], "soft"]:
-        with pytest.raises(sw.InputError, match="stiffness: must be three numbers, of stretch, bend and torsion, got"):
+        rule = r"^stiffness: must be three numbers \(or None\), of stretch, bend and torsion, got"
+        with pytest.raises(sw.InputError, match=rule):
             simulation.change(stiffness=wrong)
-    with pytest.raises(sw.InputError, match=r"dofs: must be three booleans, .* got \[True, False\]"):
+    with pytest.raises(sw.InputError, match=r"^dofs: must be three booleans .* got \[True, False\]"):
         simulation.change(dofs=[True, False])
     assert simulation.state_hash == before
     simulation.change(stiffness=[1000.0, 400.0, 3.0], integrator="rosenbrock")
@@ -168,6 +168,10 @@ def test_changes_are_made_completely_or_not_at_all():
     assert simulation.tool().integrator == "rosenbrock"
     simulation.advance(10.0)
     assert simulation.tool().stretch == pytest.approx(MASS * GRAVITY / 1000.0, rel=1e-4)
+    simulation.change(stiffness=[None, 500.0, None], damping_ratio=[0.5, None, None], dofs=[None, None, False])
+    fork = simulation.tool()
+    assert fork.stiffness.tolist() == [1000.0, 500.0, 3.0]
+    assert (fork.damping_ratio.tolist(), fork.dofs) == ([0.5, 1.0, 1.0], [True, True, False])
 
 
 def test_settings_are_those_of_a_file():
@@ -187,16 +191,29 @@ def test_settings_are_those_of_a_file():
         ({"gravity": float("nan")}, ["gravity", "nan", "must be"]),
         ({"stepp": 0.01}, ["stepp", "unknown key"]),
         ({"integrator": "euler"}, ["integrator", "euler", "exponential"]),
-        ({"step": None}, ["None", "must be"]),
+        ({"fork": {"length": None}}, ["fork.length: must be", "None"]),
     ],
 )
 def test_bad_settings_are_refused(values, words):
+    scene = sw.load_scene(BOX)
     settings = sw.SimulationSettings()
-    for call in [sw.SimulationSettings, settings.update]:
+    messages = set()
+    for call in [sw.SimulationSettings, settings.update, lambda values: sw.Simulation(scene, values)]:
         with pytest.raises(sw.InputError) as refused:
             call(values)
-        for word in words:
-            assert word in str(refused.value)
+        messages.add(str(refused.value))
+    (message,) = messages
+    for word in words:
+        assert word in message
+
+
+def test_a_dictionary_of_settings_makes_the_same_simulation():
+    scene, values = sw.load_scene(BOX), {"contact": "none", "fork": {"length": 0.25}, "step": 0.01}
+    simulation = sw.Simulation(scene, values)
+    assert simulation.tool().length == 0.25
+    assert simulation.state_hash == sw.Simulation(scene, settings=sw.SimulationSettings(values)).state_hash
+    with pytest.raises(TypeError):
+        sw.Simulation(scene, 5.0)
 
 
 def test_invalid_poses_are_refused():

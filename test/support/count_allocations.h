@@ -8,8 +8,9 @@ namespace spring_workbench::test_support {
 inline long allocations = 0;
 }  // namespace spring_workbench::test_support
 
-// All heap allocations use one of these, including Eigen's and operator new. Sanitizers define their own.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// All heap allocations use one of these, including Eigen's and operator new. Sanitizers define their own; clang does
+// not say so.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define COUNTS_ALLOCATIONS 1
 extern "C" {
 void* __libc_malloc(std::size_t size);

@@ -68,7 +68,7 @@ class HeldBody {
   /// Increases with every change of the equations: what an integrator has derived from them is valid for one version
   /// only.
   long version() const { return version_; }
-  /// Increases with every change of the external wrench, which does not change the linear part of the equations.
+  /// Increases with every change of the load, which does not change the linear part of the equations.
   long load_version() const { return load_version_; }
 
   /// Sets stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per DOF.
@@ -96,9 +96,9 @@ class HeldBody {
   /// Returns whether a DOF that was switched off is still returning to zero strain.
   bool returning() const { return coordinates_.returning(); }
 
-  /// Sets the constant wrench of contact on the body at its centre of mass, in world axes; zero at first.
-  void set_external_wrench(const Wrench& wrench_W);
-  const Wrench& external_wrench() const { return external_W_; }
+  /// Sets the constant load [N, N·m] on the body at its centre of mass, world axes: contact and measured wrenches.
+  void set_load(const Wrench& load_W);
+  const Wrench& load() const { return load_W_; }
   bool loaded() const { return loaded_; }  ///< whether it is not zero
 
   /// Checks whether the object meets nothing on its straight path between two poses. For the step that follows, and for
@@ -220,8 +220,8 @@ class HeldBody {
   rod::StrainMatrix D_modal_;  ///< active coordinates; valid if modal_
   ActiveCoordinates coordinates_;
   Couplings couplings_;
-  Wrench external_W_;
-  bool loaded_ = false;  ///< the external wrench is not zero
+  Wrench load_W_;
+  bool loaded_ = false;  ///< the load is not zero
   PathCheck path_check_;
   /// Result of the last tip(): a step asks for pose, Jacobian and mass matrix of one state repeatedly. Not thread-safe.
   struct LastTip {

@@ -19,7 +19,7 @@ struct StepEstimate {
   bool converged = true;  ///< whether an implicit method solved its equation; if false, the state must not be used
 };
 
-/// Estimate and bound of the error of a run: the state minus the exact solution of the equation of motion.
+/// Estimate of the error of a run, and a bound on it: the state minus the exact solution of the equation of motion.
 struct RunError {
   using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * rod::max_strain_coordinates,
                                 2 * rod::max_strain_coordinates>;
@@ -80,7 +80,7 @@ class Integrator {
   /// By default that of the implicit Euler rule.
   virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
 
-  /// Saves or restores the history: all that it keeps of the equations and the last step.
+  /// Saves or restores the history: calls `state(a_, b_, …)` with every member that it keeps from step to step.
   virtual void exchange(math::StateArchive&) {}
   /// Whether a restored history replaces any other, so that one integrator may be used for several runs in turn.
   virtual bool restores_all() const { return false; }

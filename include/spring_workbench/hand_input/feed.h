@@ -47,8 +47,10 @@ struct Accepted {
 /// same calls give bit-identical results.
 class Feed {
  public:
+  /// Whether the hands' motion is predicted, which costs time for every sample.
+  enum class Prediction { off, on };
   /// Feeds `simulation`, which must outlive it.
-  Feed(simulation::Simulation& simulation, const InputSettings& settings);
+  Feed(simulation::Simulation& simulation, const InputSettings& settings, Prediction prediction = Prediction::off);
   ~Feed();
 
   /// Adds a sample as received, in a tracker's frame P whose pose in the world is `X_WP`. Returns the result of the
@@ -81,7 +83,7 @@ class Feed {
   /// Advances the simulation to `t`. A hand that is lost before `t` releases its object at the time of the loss.
   simulation::AdvanceReport advance_to(double t);
   /// Gives each hand of `copy`, a copy of the simulation, the samples by which it follows its predicted motion up to
-  /// time `t`; they also determine its velocity at the newest true sample.
+  /// time `t`; they also determine its velocity at the newest true sample. None without Prediction::on.
   void predict(double t, simulation::Simulation& copy) const;
   /// Returns the time since the newest sample of any hand arrived [s].
   double time_since_arrival(const LocalTime& now) const;

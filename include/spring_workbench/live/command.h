@@ -27,6 +27,9 @@ struct Command {
     reset,        ///< like restart, but can be undone
     undo          ///< undo the last edit or reset
   };
+  Command() = default;
+  explicit Command(Kind of) : kind(of) {}
+
   Kind kind = Kind::none;
   std::optional<std::size_t> hand;
   tools::Tool tool = tools::Tool::spring_fork;

@@ -36,6 +36,11 @@ struct Entry {
   std::variant<hand_input::Accepted, Change> what;
 };
 
+/// Sorts the entries of a recording by their index. Removes those from before its first input if entries are missing
+/// between them: inputs and changes are published on two topics, and a recorder that starts beside another listener
+/// may be connected to that of the changes first. The state that is noted once it is connected to both follows.
+std::vector<Entry> from_first_complete(std::vector<Entry> entries);
+
 /// Counts of the changes of a journal after the first one.
 struct ReplayedChanges {
   std::size_t repeated = 0;             ///< changes that were repeated

@@ -19,6 +19,12 @@ struct PredictionError {
   double angle = 0.0;     ///< [rad]
 };
 
+/// A step of the simulation.
+struct StepTime {
+  double lasts = 0.0;  ///< of the hands' time [s]
+  double takes = 0.0;  ///< of the processor's [s], by the clock of Pace
+};
+
 /// The displayed state: a copy of the committed simulation that is advanced to the newest sample of the hands, or
 /// beyond it along their predicted motion. It only reads the committed simulation.
 class LookAhead {
@@ -34,6 +40,9 @@ class LookAhead {
   double show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
                      const Pace& pace);
   const simulation::Simulation& shown() const { return copy_; }
+  /// Measures a step of the largest length from the state of `committed`. The copy takes two, since the first one after
+  /// a change also prepares the next ones, and is then as it was.
+  StepTime time_of_step(const simulation::Simulation& committed, const hand_input::Feed& feed, const Pace& pace);
   /// Whether the copy has followed the committed simulation since the last restart(). If not, it may contain other
   /// objects.
   bool has_followed() const { return has_followed_; }

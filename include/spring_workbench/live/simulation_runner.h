@@ -139,6 +139,11 @@ class SimulationRunner {
   }
   /// Makes a change of the current scene, which the journal calls `what`. Throws as perform().
   simulation::ChangeReport change(const std::string& what, const Command& command);
+  /// Measures a step of the largest length from the current state, which does not change; see LookAhead.
+  StepTime time_of_step() {
+    const Lock lock(mutex_);
+    return ahead_.time_of_step(simulation_, feed_, pace_);
+  }
   /// Starts the journal, with the current state as its first entry, or stops it.
   void keep_journal(bool keep);
   /// Records the hash of the current state in the journal, for comparison.

@@ -17,9 +17,9 @@
 
 namespace spring_workbench::math {
 
-/// Visits the numbers of a state, always in the same order, either to read or to set them. A class lists the members
-/// that a step changes in one place, `exchange(StateArchive&)`, which serves for saving, restoring, comparing and
-/// hashing. An archive contains only numbers: no pointer, no padding, no capacity.
+/// Saves or restores the numbers of a state, always in the same order. A class lists the members that a step changes
+/// in one function, `exchange(StateArchive& state) { state(a_, b_); }`, which does both (like Boost's `serialize`). An
+/// archive contains only numbers: no pointer, no padding, no capacity.
 class StateArchive {
  public:
   using Words = std::vector<std::uint64_t>;

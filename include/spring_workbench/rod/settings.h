@@ -31,6 +31,20 @@ struct ForkDofs {
   bool operator==(const ForkDofs& o) const { return stretch == o.stretch && bend == o.bend && torsion == o.torsion; }
 };
 
+/// A change of some values of a PerDof (`T` = double) or of ForkDofs (bool); absent ones stay as they are.
+template <typename T>
+struct PerDofChange {
+  std::optional<T> stretch, bend, torsion;
+
+  bool empty() const { return !stretch && !bend && !torsion; }
+  /// Returns `all` with this change.
+  template <typename All>
+  All applied_to(const All& all) const {
+    return {stretch.value_or(all.stretch), bend.value_or(all.bend), torsion.value_or(all.torsion)};
+  }
+  void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }
+};
+
 /// How the curvature of the rod varies along it (doc/model.md, "Shape models").
 enum class ShapeKind { constant, linear, bushing };
 const std::vector<std::string>& names_of(ShapeKind);
@@ -53,8 +67,8 @@ struct ForkSettings {
                                ///< `coefficients`
   DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` needs one ζ for all DOFs
   ForkDofs dofs;                                 ///< keys `fork.dofs.…`
-  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: time constant with which a DOF that is
-                                  ///< switched off while strained returns to zero strain
+  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: T of a DOF that is switched off while
+                                  ///< strained; from rest its strain falls as (1 + t/T) exp(−t/T): to 1 % in 6.6 T
 };
 
 /// Coefficient [N·s/m] of the damper in parallel with the fork's stretch spring, for a body of `mass` [kg] that is held

@@ -30,7 +30,7 @@ struct SimulationSettings {
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
   double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3
   int clutch_button = 2;                      ///< key `clutch.button`: index in the stylus' Joy
-  dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `inertia`
+  dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `error_bound`, `inertia`
   rod::ForkSettings fork;                     ///< keys `shape`, `fork.…`
   tools::LimitSettings limit;                 ///< keys `limit.…`
   tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
@@ -48,14 +48,13 @@ Twist at_hand(const Twist& V_W, const SimulationSettings& settings);
 
 /// A change of the fork while running; absent fields stay as they are.
 struct ForkChange {
-  std::optional<rod::ForkDofs> dofs;                        ///< the DOFs that are on
-  std::optional<double> stretch_stiffness, bend_stiffness;  ///< [N/m]
-  std::optional<double> torsion_stiffness;                  ///< [N·m/rad]
-  std::optional<rod::PerDof> damping_ratio;                 ///< –
-  std::optional<rod::PerDof> damping_coefficient;           ///< [N·s/m, N·s/m, N·m·s/rad]
-  std::optional<rod::DampingLaw> damping_law;               ///< how damping values are read
+  rod::PerDofChange<bool> dofs;                   ///< true: on; false: rigid
+  rod::PerDofChange<double> stiffness;            ///< [N/m, N/m, N·m/rad]
+  rod::PerDofChange<double> damping_ratio;        ///< –
+  rod::PerDofChange<double> damping_coefficient;  ///< [N·s/m, N·s/m, N·m·s/rad]
+  std::optional<rod::DampingLaw> damping_law;     ///< what these damping values mean
 
-  bool empty() const { return !dofs && !changes_springs(); }
+  bool empty() const { return dofs.empty() && !changes_springs(); }
   bool changes_springs() const;
   /// Returns the fork with this change.
   rod::ForkSettings applied_to(rod::ForkSettings fork) const;
@@ -78,7 +77,7 @@ struct DynamicsChange {
 struct ObjectEdit {
   enum class Action { add, move, remove, mass, friction };
   Action action = Action::move;        ///< what to do
-  std::string object;                  ///< its name
+  std::string name;                    ///< of the object
   std::string urdf;                    ///< for `add`: path or package:// URI of the object's URDF
   std::optional<RigidTransform> X_WL;  ///< pose of its URDF link frame in world; required by `move`; an added
                                        ///< object without it stands on the bench at x = y = 0
@@ -86,7 +85,7 @@ struct ObjectEdit {
   double friction = 0.0;               ///< for `friction`: the new Coulomb coefficient, ≥ 0
 
   bool operator==(const ObjectEdit& other) const;
-  void exchange(math::StateArchive& state) { state(action, object, urdf, X_WL, mass, friction); }
+  void exchange(math::StateArchive& state) { state(action, name, urdf, X_WL, mass, friction); }
 };
 inline std::vector<std::string> names_of(ObjectEdit::Action) { return {"add", "move", "remove", "mass", "friction"}; }
 

@@ -58,7 +58,7 @@ struct AdvanceReport {
   double position_error = 0.0;  ///< largest estimate of a step's local error [m]
   double angle_error = 0.0;     ///< largest estimate of a step's local error in angle [rad]
   // Bounds over the steps that have one (doc/model.md, "Error bound"); none without the setting `error_bound`.
-  std::optional<double> local_error_bound;  ///< largest bound of a step's local error in position [m]
+  std::optional<double> local_error_bound;  ///< largest bound on a step's local error in position [m]
   std::optional<double> error_bound;  ///< of the error in position since the grasp or the last step without one [m]
   std::optional<double> angle_error_bound;  ///< the same in angle [rad]
   int steps_unbounded = 0;                  ///< integrations (in contact several a step) without a bound
@@ -67,8 +67,8 @@ struct AdvanceReport {
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
   int steps_among_movable = 0;     ///< steps near other movable objects (contact mode `dynamic`)
   int collision_queries = 0;       ///< queries to the collision library
-  int substeps = 0;  ///< discarded attempts, each repeated with shorter steps: equation not solved, or error too large
-  int stops = 0;     ///< steps that met the end of the fork's range
+  int substeps = 0;           ///< steps discarded and repeated as shorter ones: equation not solved, or error too large
+  int stops = 0;              ///< steps that met the end of the fork's range
   int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
@@ -185,8 +185,8 @@ class Simulation {
   const std::vector<bodies::BodyState>& objects() const;  ///< the movable objects, in the scene's order
   const bodies::Changes& object_changes() const;          ///< changes of the states in objects()
   tools::ToolState tool(std::size_t hand = 0) const;      ///< state of the tool in a hand
-  const std::vector<contact::ContactState>& contacts()
-      const;  ///< current contacts, and those that ended in the last call
+  /// The current contacts, and those that ended in the last call of advance().
+  const std::vector<contact::ContactState>& contacts() const;
 
   /// Saves the whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
   /// starts, histories of integrators, the settings that can be changed while running, and the edits. Two saves of one

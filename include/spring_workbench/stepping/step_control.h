@@ -8,9 +8,9 @@
 
 namespace spring_workbench::stepping {
 
-/// Bounds of the errors at the object's centre of mass (doc/model.md, "Error bound").
+/// Bounds on the errors at the object's centre of mass (doc/model.md, "Error bound").
 struct ErrorBounds {
-  std::optional<double> local;     ///< largest bound of a step's local error in position [m]; none if no step has one
+  std::optional<double> local;     ///< largest bound on a step's local error in position [m]; none if no step has one
   std::optional<double> position;  ///< the same of the run's error in position, since the run was last exact [m]
   std::optional<double> angle;     ///< the same of its error in orientation [rad]
   int unbounded = 0;               ///< steps without a bound
@@ -75,7 +75,7 @@ class StepControl {
     dynamics::StrainState exact;  ///< estimate of the exact state
     dynamics::RunError::Moments spread;  ///< uncertainty of that estimate (RunError)
     dynamics::StrainState end;           ///< state at the end of the last span
-    double error_bound = 0.0;            ///< bound of the error in position at the end of the last span [m]
+    double error_bound = 0.0;            ///< bound on the error in position at the end of the last span [m]
     double angle_bound = 0.0;            ///< the same for the orientation [rad]
     bool bounded = false;                ///< whether the two bounds are valid (doc/model.md, "Error bound")
 

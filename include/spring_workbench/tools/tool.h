@@ -15,10 +15,9 @@ enum class Tool {
 };
 
 inline std::vector<std::string> names_of(Tool) { return {"spring", "spring_fork", "spring_probe", "direct", "ray"}; }
-bool can_hold(Tool tool);
-/// Whether the held object turns with the hand.
-bool turns(Tool tool);
-/// The next tool; with `holding`, the next one that can hold.
+bool can_hold(Tool tool);  ///< whether the tool can hold an object
+bool turns(Tool tool);     ///< whether the held object turns with the hand
+/// Returns the next tool; with `holding`, the next one that can hold an object.
 Tool next_tool(Tool tool, bool holding);
 
 }  // namespace spring_workbench::tools

@@ -42,7 +42,7 @@ struct ToolState {
   Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< kinetic energy of the held object, in world [J]
-  std::optional<double> error_bound;  ///< bound of the error of integration in position, since the grasp or the last
+  std::optional<double> error_bound;  ///< bound on the error of integration in position, since the grasp or the last
                                       ///< step without a bound [m]; none if the setting `error_bound` is off, and,
                                       ///< e.g., in contact (doc/model.md, "Error bound")
   double force_scale = 1.0;           ///< ratio of virtual to real force

@@ -24,8 +24,11 @@ inline NumberRule not_negative() { return {0.0, std::numeric_limits<double>::max
 inline NumberRule positive_or_infinite() { return {0.0, std::numeric_limits<double>::max(), false, true}; }
 inline NumberRule between(double min, double max) { return {min, max, true, false}; }
 
+/// Beginning of a message: "<where>: <key>: ", or "<key>: " if `where` is empty, as for an argument of the library.
+std::string prefix(const std::string& where, const std::string& key);
+
 /// Throws InputError("<where>: <key>: must be <rule>, got <value>"), or "<where>: <key>: missing; give <rule>" if
-/// `value` is empty.
+/// `value` is empty; see prefix().
 [[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& value,
                          const std::string& rule);
 

@@ -34,7 +34,8 @@ Motion read_motion(motion::StylusSource& source);
 std::map<std::size_t, Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
                                        int clutch_button);
 
-/// The messages of a live run on ~accepted and ~changes, in order; empty if the bag has none. Throws InputError.
+/// The messages of a live run on ~accepted and ~changes, in order and from where both topics were recorded; empty if
+/// the bag has none. Throws InputError.
 std::vector<live::Entry> read_journal(const std::string& path);
 
 }  // namespace spring_workbench::replay

@@ -108,7 +108,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("steps with unsolved contacts", loop.advance.steps_unsolved)
       .add("time lost in steps [s]", loop.advance.time_lost)
       .add("steps by the fallback", loop.advance.steps_fallback)
-      .add("largest bound of a run's error [m]",
+      .add("largest bound on a run's error [m]",
            loop.advance.error_bound.value_or(std::numeric_limits<double>::infinity()))
       .add("steps without such a bound", loop.advance.steps_unbounded)
       .add("stops at the end of the fork's range", loop.advance.stops)

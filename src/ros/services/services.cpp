@@ -30,10 +30,9 @@ void fill(const simulation::ChangeReport& report, Response& response) {
 }
 
 /// `stylus`: 1, 2, …; 0: all.
-live::Command command_of(const live::SimulationRunner& runner, live::Command::Kind kind, unsigned stylus,
-                         const std::string& service) {
+live::Command command_of(const live::SimulationRunner& runner, live::Command::Kind kind, unsigned stylus) {
   if (stylus > runner.hands()) {
-    validation::refuse(service, "stylus", std::to_string(stylus),
+    validation::refuse("", "stylus", std::to_string(stylus),
                        "an integer between 0 and " + std::to_string(runner.hands()));
   }
   live::Command command;
@@ -43,8 +42,8 @@ live::Command command_of(const live::SimulationRunner& runner, live::Command::Ki
 }
 
 void select_tool(live::SimulationRunner& runner, const SelectTool::Request& request, SelectTool::Response& response) {
-  const auto tool = validation::named<tools::Tool>(request.tool, "select_tool", "tool");
-  live::Command command = command_of(runner, live::Command::Kind::select_tool, request.stylus, "select_tool");
+  const auto tool = validation::named<tools::Tool>(request.tool, "", "tool");
+  live::Command command = command_of(runner, live::Command::Kind::select_tool, request.stylus);
   command.tool = tool;
   fill(runner.change("select_tool", command), response);
 }
@@ -52,7 +51,7 @@ void select_tool(live::SimulationRunner& runner, const SelectTool::Request& requ
 template <typename Response>
 void change_fork(live::SimulationRunner& runner, const simulation::ForkChange& change, unsigned stylus,
                  const std::string& service, Response& response) {
-  live::Command command = command_of(runner, live::Command::Kind::settings, stylus, service);
+  live::Command command = command_of(runner, live::Command::Kind::settings, stylus);
   command.fork_change = change;
   fill(runner.change(service, command), response);
 }
@@ -67,18 +66,16 @@ void set_stiffness(live::SimulationRunner& runner, const SetForkStiffness::Reque
                    SetForkStiffness::Response& response) {
   const auto given = [](double k) { return k != 0.0 ? std::optional<double>(k) : std::nullopt; };
   simulation::ForkChange change;
-  change.stretch_stiffness = given(request.stretch);
-  change.bend_stiffness = given(request.bend);
-  change.torsion_stiffness = given(request.torsion);
+  change.stiffness = {given(request.stretch), given(request.bend), given(request.torsion)};
   change_fork(runner, change, request.stylus, "set_stiffness", response);
 }
 
 void set_damping(live::SimulationRunner& runner, const SetForkDamping::Request& request,
                  SetForkDamping::Response& response) {
-  const rod::PerDof numbers{request.stretch, request.bend, request.torsion};
+  const rod::PerDofChange<double> numbers{request.stretch, request.bend, request.torsion};
   simulation::ForkChange change;
   if (!request.law.empty()) {
-    change.damping_law = validation::named<rod::DampingLaw>(request.law, "set_damping", "law");
+    change.damping_law = validation::named<rod::DampingLaw>(request.law, "", "law");
   }
   (change.damping_law == rod::DampingLaw::coefficients ? change.damping_coefficient : change.damping_ratio) = numbers;
   change_fork(runner, change, request.stylus, "set_damping", response);
@@ -89,16 +86,18 @@ void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request
   live::Command command;
   command.kind = live::Command::Kind::settings;
   simulation::DynamicsChange& change = command.dynamics_change;
-  change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "set_integrator", "name");
+  change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "", "name");
   if (request.step != 0.0) change.step = request.step;
   if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
   runner.change("set_integrator", command);
   const dynamics::DynamicsSettings now =
       runner.locked([](const simulation::Simulation& s) { return s.settings().dynamics; });
-  char text[120];
-  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s",
+  const live::StepTime step = runner.time_of_step();
+  char text[200];
+  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s; a step takes %.2g s now%s",
                 validation::name_of(now.integrator).c_str(), now.step, now.tolerance,
-                now.tolerance > 0.0 ? "" : " (fixed steps)");
+                now.tolerance > 0.0 ? "" : " (fixed steps)", step.takes,
+                step.takes > step.lasts ? ", so simulated time will be slower than the hands'" : "");
   response.message = text;
 }
 
@@ -117,8 +116,8 @@ void edit_object(live::SimulationRunner& runner, const std::vector<std::string>&
   command.kind = live::Command::Kind::edit;
   command.roots = roots;
   simulation::ObjectEdit& edit = command.edit;
-  edit.action = validation::named<Action>(request.action, "edit", "action");
-  edit.object = request.name;
+  edit.action = validation::named<Action>(request.action, "", "action");
+  edit.name = request.name;
   const geometry_msgs::Quaternion& q = request.pose.orientation;
   const bool given = q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
   if (edit.action == Action::add) edit.urdf = request.urdf;
@@ -137,18 +136,17 @@ void save_scene(live::SimulationRunner& runner, const std::vector<std::string>& 
 }
 
 void calibrate(live::SimulationRunner& runner, const Calibrate::Request& request, Calibrate::Response& response) {
-  fill(runner.change("calibrate", command_of(runner, live::Command::Kind::calibrate, request.stylus, "calibrate")),
-       response);
+  fill(runner.change("calibrate", command_of(runner, live::Command::Kind::calibrate, request.stylus)), response);
 }
 
 void set_clutch(live::SimulationRunner& runner, const SetClutch::Request& request, SetClutch::Response& response) {
-  live::Command command = command_of(runner, live::Command::Kind::clutch, request.stylus, "clutch");
+  live::Command command = command_of(runner, live::Command::Kind::clutch, request.stylus);
   command.on = request.on != 0;
   response.message = runner.change("clutch", command).message;
 }
 
 void release(live::SimulationRunner& runner, const Release::Request& request, Release::Response& response) {
-  const live::Command command = command_of(runner, live::Command::Kind::release, request.stylus, "release");
+  const live::Command command = command_of(runner, live::Command::Kind::release, request.stylus);
   response.message = runner.change("release", command).message;
 }
 
@@ -167,8 +165,8 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
         response.success = true;
       } catch (const validation::InputError& error) {
         response.success = false;
-        response.message = error.what();
-        ROS_WARN_STREAM(error.what());
+        response.message = std::string(name) + ": " + error.what();
+        ROS_WARN_STREAM(response.message);
       }
       return true;
     }));

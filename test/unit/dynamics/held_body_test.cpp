@@ -157,7 +157,7 @@ TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
         Wrench load;
         load.force = 5.0 * Vector3d::NullaryExpr([&] { return uniform(random); });
         load.moment = 0.3 * Vector3d::NullaryExpr([&] { return uniform(random); });
-        if (trial > 0) held.set_external_wrench(load);
+        if (trial > 0) held.set_load(load);
         StrainState s = held.zero_state();
         s.q = rod::StrainVector::NullaryExpr(held.size(), [&] { return 0.03 * uniform(random); });
         s.q_dot = rod::StrainVector::NullaryExpr(held.size(), [&] { return uniform(random); });
@@ -166,9 +166,8 @@ TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
         const motion::MotionState o = held.object(at, s, &q_ddot);
         const Matrix3d R = o.X.linear(), I_W = R * held.body().inertia_O * R.transpose();
         Eigen::Matrix<double, 6, 1> dynamic;
-        dynamic << held.body().mass * (o.acceleration.linear + 9.81 * Vector3d::UnitZ()) - held.external_wrench().force,
-            I_W * o.acceleration.angular + o.velocity.angular.cross(I_W * o.velocity.angular) -
-                held.external_wrench().moment;
+        dynamic << held.body().mass * (o.acceleration.linear + 9.81 * Vector3d::UnitZ()) - held.load().force,
+            I_W * o.acceleration.angular + o.velocity.angular.cross(I_W * o.velocity.angular) - held.load().moment;
         Eigen::Matrix<double, 6, Eigen::Dynamic> J = held.object_jacobian(0.05, s.q);
         J.topRows(3) = at.X_WH.linear() * J.topRows(3);
         J.bottomRows(3) = at.X_WH.linear() * J.bottomRows(3);
@@ -296,7 +295,7 @@ TEST(HeldBody, EnergyChangesByTheWorkThatIsTold) {
         HeldBody held = held_by(shape, {200.0, 60.0, 1.0}, {0.3, 1.0, 2.0}, box_off_centre());
         if (modal) held.set_springs_with_modal_damping({200.0, 60.0, 1.0}, 0.7);
         only(held, dofs);
-        held.set_external_wrench({Vector3d(0.5, -2.0, 1.0), Vector3d(0.1, 0.05, -0.2)});
+        held.set_load({Vector3d(0.5, -2.0, 1.0), Vector3d(0.1, 0.05, -0.2)});
         StrainState state = held.zero_state();
         for (Eigen::Index i = 0; i < state.q.size(); ++i) {
           state.q[i] = 0.05 * uniform(random);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/motion/pose_predictor.h"
 #include "support/bench_scenes.h"
 
 namespace spring_workbench::hand_input::feed_test {
@@ -80,6 +81,32 @@ TEST(Feed, AMotionAtOnceAndSampleBySampleAreTheSame) {
     EXPECT_EQ(feed_live.reacquisition_counts(0).reacquisitions, 1u);
     EXPECT_EQ(feed_at_once.reacquisition_counts(0).reacquisitions, 1u);
     EXPECT_EQ(feed_live.reacquisition_counts(0).late, 0u);
+  }
+}
+
+/// A feed that predicts gives a copy the samples of a predictor that has seen the same poses; one that does not gives
+/// none, and its simulation is the same.
+TEST(Feed, OnlyOneThatPredictsGivesACopySamples) {
+  simulation::Simulation simulations[] = {make_simulation(), make_simulation()};
+  Feed without(simulations[0], InputSettings()), with(simulations[1], InputSettings(), Feed::Prediction::on);
+  motion::PosePredictor predictor;
+  with.record([&](const Accepted& accepted) {
+    if (accepted.kind == Accepted::Kind::pose) predictor.push({accepted.t, accepted.X_WH});
+  });
+  for (const motion::PoseSample& sample : shaking_hand()) {
+    if (sample.t > 1.99) break;  // before it is lost
+    for (Feed* feed : {&without, &with}) {
+      feed->push_stylus(sample);
+      feed->advance_to(sample.t - 2.0 * kInterval);
+    }
+    simulation::Simulation copies[] = {make_simulation(), make_simulation(), make_simulation()};
+    for (simulation::Simulation& copy : copies) copy.follow(simulations[1]);
+    with.predict(sample.t + 0.03, copies[0]);
+    for (const motion::PoseSample& next : predictor.continuation(sample.t + 0.03)) copies[1].push_stylus(next);
+    EXPECT_EQ(copies[0].state_hash(), copies[1].state_hash());
+    without.predict(sample.t + 0.03, copies[2]);
+    EXPECT_EQ(copies[2].state_hash(), simulations[0].state_hash());
+    EXPECT_EQ(copies[2].state_hash() == copies[0].state_hash(), sample.t == 0.0);
   }
 }
 

@@ -17,7 +17,7 @@ TEST(SimulationRunner, AnotherSceneHasAForkOfItsOwn) {
   SimulationRunner runner(shipped("single_box"), settings, hand_input::InputSettings(), false);
   Command stiff;
   stiff.kind = Command::Kind::settings;
-  stiff.fork_change.dofs = rod::ForkDofs{true, true, false};
+  stiff.fork_change.dofs = {true, true, false};
   runner.change("stiff", stiff);
   runner.load(shipped("heavy"));
   const rod::ForkSettings fork = runner.locked([](const auto& s) { return s.fork_settings(1); });

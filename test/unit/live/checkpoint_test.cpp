@@ -43,7 +43,7 @@ struct Session {
   void move(double x) {
     Command command;
     command.kind = Command::Kind::edit;
-    command.edit.object = "box";
+    command.edit.name = "box";
     command.edit.X_WL = make_transform(Quaterniond::Identity(), Vector3d(x, 0.0, 0.02));
     runner->change("edit_object", command);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/validation/input_error.h"
@@ -146,7 +147,7 @@ TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
   for (int k = 0; k < 60; ++k) {
     bench.commit(bench.sample(k, k < 30), interval * k);
     bench.show(0.0, interval * k);
-    EXPECT_NEAR(bench.shown().time, interval * k, 1e-12);
+    EXPECT_EQ(bench.shown().time, interval * k);
     EXPECT_LT((bench.shown().tools.front().X_WH.translation() - hand_at(interval * k)).norm(), 1e-12) << k;
   }
 }
@@ -226,8 +227,8 @@ TEST(LookAhead, TwoHandsThatDifferByARoundingErrorGoOnTogether) {
   EXPECT_NEAR(bench.runner.locked([](const auto& s) { return s.time(); }), interval * 58, 1e-9);
 }
 
-/// The display at the newest sample has the error of its velocity; further ahead the error is much larger; it vanishes
-/// if the hand continues straight.
+/// The display at the newest sample has the error of its velocity; further ahead the error is much larger. The errors
+/// at the start are the largest: two samples determine a line only.
 TEST(LookAhead, ErrorsAreThoseOfTheDisplayedPoses) {
   double largest[2];
   for (const int further : {0, 1}) {
@@ -236,10 +237,10 @@ TEST(LookAhead, ErrorsAreThoseOfTheDisplayedPoses) {
     for (int k = 0; k < 200; ++k) {
       bench.commit(bench.sample(k, false), interval * k);
       bench.show(further * 0.03, interval * k);
+      if (k == 10) largest[further] = std::exchange(bench.largest_error, 0.0);
     }
-    largest[further] = bench.largest_error;
-    EXPECT_LE(bench.runner.prediction_error_99(), bench.largest_error);
-    EXPECT_GT(bench.runner.prediction_error_99(), 0.05 * bench.largest_error);
+    EXPECT_LE(bench.runner.prediction_error_99(), largest[further]);
+    EXPECT_GT(bench.runner.prediction_error_99(), 0.9 * bench.largest_error);
   }
   EXPECT_GT(largest[0], 1e-9);
   EXPECT_LT(largest[0], 1e-4);
@@ -305,11 +306,10 @@ Command random_command(std::mt19937& random) {
   if (random() % 3 > 0) command.hand = random() % 2;
   command.tool = every_tool[random() % 5];
   command.on = random() % 2 == 0;
-  if (random() % 2 == 0)
-    command.fork_change.dofs = rod::ForkDofs{random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
-  if (random() % 2 == 0) command.fork_change.stretch_stiffness = uniform(100.0, 1000.0);
-  if (random() % 2 == 0) command.fork_change.torsion_stiffness = uniform(0.1, 10.0);
-  if (random() % 3 == 0) command.fork_change.damping_ratio = rod::PerDof{0.2, 0.2, 0.2};
+  if (random() % 2 == 0) command.fork_change.dofs = {random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
+  if (random() % 2 == 0) command.fork_change.stiffness.stretch = uniform(100.0, 1000.0);
+  if (random() % 2 == 0) command.fork_change.stiffness.torsion = uniform(0.1, 10.0);
+  if (random() % 3 == 0) command.fork_change.damping_ratio = {0.2, 0.2, 0.2};
   if (random() % 4 == 0) command.dynamics_change.step = uniform(0.001, 0.004);
   if (random() % 4 == 0) command.dynamics_change.integrator = dynamics::IntegratorKind::rk4;
   return command;
@@ -410,7 +410,7 @@ TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
   bench.runner.keep_journal(true);
   Command softer;
   softer.kind = Command::Kind::settings;
-  softer.fork_change.stretch_stiffness = 300.0;
+  softer.fork_change.stiffness.stretch = 300.0;
   for (int k = 0; k < 50; ++k) {
     bench.commit(bench.sample(k, false), interval * k);
     if (k == 30) bench.runner.change("softer", softer);
@@ -419,7 +419,7 @@ TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
   Replayer replayer = replayer_of_two_boxes();
   for (Entry& entry : bench.runner.take_journal()) {
     auto* change = std::get_if<Change>(&entry.what);
-    if (change != nullptr && change->what == "softer") change->command.fork_change.stretch_stiffness = 300.1;
+    if (change != nullptr && change->what == "softer") change->command.fork_change.stiffness.stretch = 300.1;
     replayer.play(entry, [](auto&, auto&) {});
   }
   ASSERT_EQ(replayer.changes().mismatches.size(), 1u);
@@ -427,12 +427,47 @@ TEST(Journal, ARepeatedChangeWithAnotherResultIsCountedAndReported) {
   EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
 }
 
+/// A recorder beside another listener is connected to the two topics one after the other, and the state is noted again
+/// once it is connected to both. In either order, its recording is replayed to the same bits, but not if an entry is
+/// missing later.
+TEST(Journal, OfALateRecorderBeginsWithTheStateAfterBothConnections) {
+  for (const bool changes_first : {true, false}) {
+    Bench bench;
+    std::vector<Entry> recorded;
+    for (int k = 0; k < 80; ++k) {
+      if (k == 10 || k == 60) bench.runner.keep_journal(true);
+      bench.commit(bench.sample(k, false), interval * k);
+      if (k % 10 == 5) bench.runner.note_state();
+      if (k == 50) bench.runner.restart();
+      for (Entry& entry : bench.runner.take_journal()) {
+        const bool is_change = std::holds_alternative<Change>(entry.what);
+        if (k >= (is_change == changes_first ? 30 : 58)) recorded.push_back(std::move(entry));
+      }
+    }
+    bench.runner.note_state();
+    for (Entry& entry : bench.runner.take_journal()) recorded.push_back(std::move(entry));
+    const auto replayed = [](const std::vector<Entry>& entries) {
+      Replayer replayer = replayer_of_two_boxes();
+      for (const Entry& entry : entries) replayer.play(entry, [](auto&, auto&) {});
+      return replayer.simulation()->state_hash();
+    };
+    std::rotate(recorded.begin(), recorded.begin() + 5, recorded.end());
+    const std::vector<Entry> complete = from_first_complete(recorded);
+    EXPECT_EQ(replayed(complete), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
+    std::vector<Entry> short_of_one = recorded;
+    short_of_one.erase(std::find_if(short_of_one.begin(), short_of_one.end(), [&](const Entry& entry) {
+      return entry.index == complete[complete.size() - 10].index;
+    }));
+    EXPECT_THROW(replayed(from_first_complete(short_of_one)), validation::InputError);
+  }
+}
+
 TEST(Journal, WordsThatAreNoCommandAreRefused) {
   Command softer;
   softer.kind = Command::Kind::settings;
-  softer.fork_change.stretch_stiffness = 300.0;
+  softer.fork_change.stiffness.stretch = 300.0;
   std::vector<std::uint64_t> words = softer.words();
-  EXPECT_EQ(Command::from(words).fork_change.stretch_stiffness, 300.0);
+  EXPECT_EQ(Command::from(words).fork_change.stiffness.stretch, 300.0);
   words.push_back(0);
   EXPECT_THROW(Command::from(words), validation::InputError);
   words.resize(words.size() - 2);

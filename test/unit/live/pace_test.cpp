@@ -155,6 +155,45 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
   EXPECT_GT(time_skipped, 0.0);
 }
 
+/// Before a step, while an object is held and after a change, with and without a time scale: a step lasts as long as
+/// set, takes what the clock says, and changes neither the committed state nor what is shown.
+TEST(Pace, AStepIsMeasuredWithoutChangingAnything) {
+  const Vector3d grip(0.0, 0.0, 0.7);
+  simulation::SimulationSettings settings;
+  settings.hand_time_scale = 0.5;
+  double ticks = 0.0;
+  SimulationRunner runner(
+      scene_of({box("box", Vector3d(0.1, 0.06, 0.04), 1.0, grip + Vector3d(0.0, 0.0, -0.2))}, scene::ContactMode::none),
+      settings, hand_input::InputSettings(), false, Pace([&] { return ticks += 0.25; }));
+  const auto hash = [&] { return runner.locked([](const auto& s) { return s.state_hash(); }); };
+  for (int k = 0; k < 50; ++k) {
+    const double t = 0.01 * k;
+    HandEvents events;
+    if (k == 0) events[0].emplace_back(NewEpoch{1'000'000'000});
+    StylusPose pose;
+    const Vector3d p = grip + Vector3d(0.1 * std::sin(20.0 * t), 0.0, 0.0);
+    pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
+    pose.arrival = {t, t};
+    events[0].emplace_back(pose);
+    if (k == 1) events[0].emplace_back(StylusButton{t, motion::ButtonEdge::grasp});
+    while (runner.cycle(events, {t, t}).more) events.clear();
+    Command command;
+    command.kind = Command::Kind::settings;
+    command.dynamics_change.step = k % 2 == 0 ? 1e-6 : 0.004;
+    if (k % 5 == 0) runner.change("set_integrator", command);
+    const std::uint64_t before = hash();
+    const std::optional<Shown> shown = runner.show(0.0, {t, t}, always);
+    const StepTime step = runner.time_of_step();
+    EXPECT_EQ(step.lasts, runner.locked([](const auto& s) { return s.settings().dynamics.step; }) / 0.5);
+    EXPECT_EQ(step.takes, 0.25);
+    EXPECT_EQ(hash(), before);
+    const std::optional<Shown> again = runner.show(0.0, {t, t}, always);
+    EXPECT_EQ(again->view.time, shown->view.time);
+    EXPECT_EQ(again->view.objects[0].X_WO.matrix(), shown->view.objects[0].X_WO.matrix());
+  }
+  EXPECT_TRUE(runner.locked([](const auto& s) { return s.objects()[0].held; }));
+}
+
 TEST(Pace, ACycleCommitsWhatItCanSimulateInTime) {
   Pace pace;
   EXPECT_EQ(pace.end_of_cycle(1.0, 3.0, 0.01), 3.0);  // nothing is known yet

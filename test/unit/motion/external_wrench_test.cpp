@@ -97,7 +97,7 @@ TEST(WrenchTrack, RefusesImplausibleWrenchesAndIsUnchanged) {
     wrench.wrench.moment.z() = bad;
     refused(wrench, "torque.z: must be a number between -100000 and 100000, got ");
   }
-  for (const double bad : {nan, never, 2e12}) refused(sample(bad, 1.0), "time: ");
+  for (const double bad : {nan, never, 2e12}) refused(sample(bad, 1.0), "t: ");
   ExternalWrench wrench = sample(2.0, 1.0);
   wrench.axes = static_cast<ExternalWrench::Axes>(2);
   refused(wrench, "axes: ");

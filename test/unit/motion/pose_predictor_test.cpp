@@ -45,6 +45,25 @@ TEST(PosePredictor, FollowsLineAndParabolaExactly) {
   }
 }
 
+/// Up to the time of another stream's sample: no predicted sample differs from it only by a rounding error.
+TEST(PosePredictor, GoesOnToExactlyTheGivenTime) {
+  int exact = 0;
+  for (const double interval : {0.01, 1.0 / 60.0, 1.0 / 120.0}) {
+    PosePredictor predictor;
+    for (int k = 0; k < 500; ++k) {
+      predictor.push(on_line(interval * k));
+      for (const int further : {1, 2, 3}) {
+        const double t = interval * (k + further);
+        for (const PoseSample& sample : predictor.continuation(t)) {
+          EXPECT_TRUE(sample.t == t || std::abs(sample.t - t) > 1e-4) << sample.t - t;
+          exact += sample.t == t ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(exact, 3 * 499 * 3);
+}
+
 /// After a corner, the prediction is along the new line once the corner is older than the window, and not before. Its
 /// length is that of a mean with the newest pose, whose weight decreases.
 TEST(PosePredictor, ForgetsWhatIsOlderThanItsWindow) {

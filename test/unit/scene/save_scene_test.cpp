@@ -150,14 +150,13 @@ TEST(SavedScenes, WhereTheyMayNotBeTheyAreRefused) {
   };
   EXPECT_EQ(refusal(folder.path("good.urdf")), "");
   const std::string outside = elsewhere.path("box.urdf");
-  EXPECT_EQ(refusal(outside), "save_scene: path: must be in a ROS package or in one of the folders " + folder.path("") +
-                                  ", got " + outside);
-  EXPECT_EQ(refusal(folder.path("../box.urdf")).substr(0, 42), "save_scene: path: must be in a ROS package");
-  const std::string rule = "save_scene: path: must be a package:// URI or an absolute path, in a folder that exists";
+  EXPECT_EQ(refusal(outside),
+            "path: must be in a ROS package or in one of the folders " + folder.path("") + ", got " + outside);
+  EXPECT_EQ(refusal(folder.path("../box.urdf")).substr(0, 30), "path: must be in a ROS package");
+  const std::string rule = "path: must be a package:// URI or an absolute path, in a folder that exists";
   EXPECT_EQ(refusal("box.urdf"), rule + ", got box.urdf");
   EXPECT_EQ(refusal(folder.path("none/box.urdf")), rule + ", got " + folder.path("none/box.urdf"));
-  EXPECT_EQ(refusal(folder.path("box.xml")),
-            "save_scene: path: must be one that ends in .urdf, got " + folder.path("box.xml"));
+  EXPECT_EQ(refusal(folder.path("box.xml")), "path: must be one that ends in .urdf, got " + folder.path("box.xml"));
   fs::create_directory(folder.path("taken.yaml"));
   EXPECT_EQ(refusal(folder.path("taken.urdf")), folder.path("taken.yaml") + ": cannot be written: it is a folder");
   EXPECT_FALSE(fs::exists(folder.path("taken.urdf")));

@@ -84,8 +84,8 @@ TEST_P(Edits, EditsOfOtherObjectsDoNotAffectTheHeldOne) {
       s.advance(t);
       untouched.advance(t);
       const bodies::BodyState a = object(s, "held"), b = object(untouched, "held");
-      EXPECT_LE((a.X_WO.matrix() - b.X_WO.matrix()).norm(), asleep_later) << edit.object;
-      EXPECT_LE((s.tool().strain - untouched.tool().strain).norm(), 10.0 * asleep_later) << edit.object;
+      EXPECT_LE((a.X_WO.matrix() - b.X_WO.matrix()).norm(), asleep_later) << edit.name;
+      EXPECT_LE((s.tool().strain - untouched.tool().strain).norm(), 10.0 * asleep_later) << edit.name;
     }
   };
   for (const ObjectEdit& edit : quiet) expect_same(edit, 3.0, 0.0);
@@ -195,28 +195,28 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
     EXPECT_EQ(told.substr(0, message.size()), message) << told;
   };
   const std::string objects = "a movable object of the scene (held, below, above)";
-  expect(removal("wall"), "edit: name: must be " + objects + ", got wall");
-  expect(removal("none"), "edit: name: must be " + objects + ", got none");
-  expect(new_mass("held", nan), "edit: mass: must be a number between 0 and 1e12, got nan");
-  expect(new_mass("held", -1.0), "edit: mass: must be a number between 0 and 1e12, got -1");
-  expect(new_friction("held", -0.1), "edit: friction: must be a finite number >= 0, got -0.1");
+  expect(removal("wall"), "name: must be " + objects + ", got wall");
+  expect(removal("none"), "name: must be " + objects + ", got none");
+  expect(new_mass("held", nan), "mass: must be a number between 0 and 1e12, got nan");
+  expect(new_mass("held", -1.0), "mass: must be a number between 0 and 1e12, got -1");
+  expect(new_friction("held", -0.1), "friction: must be a finite number >= 0, got -0.1");
   expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))),
-         "edit: name: must be an object that no tool holds or pushes, got held, which a tool holds or pushes");
-  expect({Action::move, "below", "", std::nullopt}, "edit: pose: missing");
-  expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "edit: pose: must be a finite pose");
-  expect(addition("wall", std::nullopt), "edit: name: must be a new name");
-  expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt}, "edit: urdf: must be an existing file");
+         "name: must be an object that no tool holds or pushes, got held, which a tool holds or pushes");
+  expect({Action::move, "below", "", std::nullopt}, "pose: missing");
+  expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "pose: must be a finite pose");
+  expect(addition("wall", std::nullopt), "name: must be a new name");
+  expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt}, "urdf: must be an existing file");
   expect({static_cast<Action>(77), "held", "", std::nullopt},
-         "edit: action: must be one of add, move, remove, mass, friction");
+         "action: must be one of add, move, remove, mass, friction");
   if (GetParam() == ContactMode::none) return;
   expect(move_to("below", at(Vector3d(2.0, 0.0, 0.3))),
-         "edit: pose: must be a pose at which below overlaps no other body by more than 0.1 mm, got one at "
+         "pose: must be a pose at which below overlaps no other body by more than 0.1 mm, got one at "
          "which it overlaps wall");
   expect(addition("brick", at(Vector3d(-1.0, 0.0, 0.049))),
-         "edit: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
+         "pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
          "which it overlaps the workbench");
   expect(addition("brick", object(s, "held").X_WO),
-         "edit: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
+         "pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
          "which it overlaps");
 }
 

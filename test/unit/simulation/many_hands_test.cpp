@@ -68,7 +68,7 @@ std::vector<bodies::BodyState> carried_by_three(const std::vector<std::size_t>& 
     push_move(simulation, 0.06, 1.0, from, to, 0.3, number[k]);
     simulation.push_button(0.02 * static_cast<double>(k), true, number[k]);
     ForkChange springs;
-    springs.stretch_stiffness = 1000.0 * static_cast<double>(k + 1);
+    springs.stiffness.stretch = 1000.0 * static_cast<double>(k + 1);
     simulation.change(springs, number[k]);
   }
   std::vector<bodies::BodyState> path;
@@ -119,8 +119,8 @@ TEST(ManyHands, WhatIsSetForOneNeverChangesTheOthers) {
     const std::size_t hand = random() % 4;
     ForkChange change;
     const auto number = [&] { return std::uniform_real_distribution<double>(0.1, 5.0)(random); };
-    change.stretch_stiffness = 1e3 * number();
-    change.damping_ratio = rod::PerDof{number(), number(), number()};
+    change.stiffness.stretch = 1e3 * number();
+    change.damping_ratio = {number(), number(), number()};
     if (trial % 3 == 0) change.dofs = {trial % 2 == 0, true, false};
     s.change(change, hand);
     if (trial % 4 == 1) s.select_tool(static_cast<tools::Tool>(random() % 5), hand);
@@ -153,7 +153,7 @@ TEST(ManyHands, SettingThePresentValueMovesNothing) {
         if (!again) continue;
         const rod::ForkSettings& fork = s.fork_settings(k % 3);
         ForkChange same = k % 2 == 0 ? change_to(fork) : ForkChange();
-        same.damping_ratio = fork.damping_ratio;
+        same.damping_ratio = change_to(fork).damping_ratio;
         s.change(same, k % 4 == 3 ? std::nullopt : std::optional<std::size_t>(k % 4));
       }
       return s.objects()[0];

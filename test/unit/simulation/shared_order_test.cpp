@@ -89,7 +89,7 @@ Simulation fork_and_probe(const dynamics::DynamicsSettings& dynamics, bool soft)
   if (soft) set.fork.stiffness = {400.0, 200.0, 2.0};  // or it would push the box off its axis
   Simulation simulation(one_box(1.0), set);
   ForkChange softer;
-  softer.stretch_stiffness = soft ? 40.0 : 200.0;
+  softer.stiffness.stretch = soft ? 40.0 : 200.0;
   simulation.change(softer, 1);
   push_swing(simulation, Vector3d(0, 0, 0.7), 0);
   simulation.push_button(0.0, true, 0);
@@ -222,12 +222,9 @@ std::vector<RigidTransform> on_one_way(const SimulationSettings& set, std::size_
   }
   if (second != 1.0) {
     ForkChange change;
-    change.stretch_stiffness = second * set.fork.stiffness.stretch;
-    change.bend_stiffness = second * set.fork.stiffness.bend;
-    change.torsion_stiffness = second * set.fork.stiffness.torsion;
-    change.damping_coefficient =
-        rod::PerDof{second * set.fork.damping_coefficient.stretch, second * set.fork.damping_coefficient.bend,
-                    second * set.fork.damping_coefficient.torsion};
+    const rod::PerDof &k = set.fork.stiffness, &c = set.fork.damping_coefficient;
+    change.stiffness = {second * k.stretch, second * k.bend, second * k.torsion};
+    change.damping_coefficient = {second * c.stretch, second * c.bend, second * c.torsion};
     simulation.change(change, 1);
   }
   std::vector<RigidTransform> poses;

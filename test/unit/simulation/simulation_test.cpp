@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
@@ -251,7 +254,7 @@ class Switching : public testing::Test {
 
 ForkChange dofs_change(const rod::ForkDofs& dofs) {
   ForkChange change;
-  change.dofs = dofs;
+  change.dofs = {dofs.stretch, dofs.bend, dofs.torsion};
   return change;
 }
 
@@ -277,7 +280,7 @@ TEST_F(Switching, AllOff) {
 TEST_F(Switching, NewStiffnessReportsTheEnergyItAdds) {
   const double torsion = simulation.tool().torsion;
   ForkChange torsion_alone;
-  torsion_alone.torsion_stiffness = 15.0;
+  torsion_alone.stiffness.torsion = 15.0;
   const ChangeReport change = simulation.change(torsion_alone);
   EXPECT_NEAR(change.elastic_energy_after - change.elastic_energy_before, 0.5 * 10.0 * torsion * torsion, 1e-12);
   EXPECT_EQ(simulation.fork_settings().stiffness.bend, 500.0);
@@ -299,7 +302,7 @@ TEST_F(Switching, EveryIntegratorTakesOver) {
 TEST_F(Switching, DampingLaws) {
   const auto damping = [](const rod::PerDof& ratio, std::optional<rod::DampingLaw> law = std::nullopt) {
     ForkChange change;
-    change.damping_ratio = ratio;
+    change.damping_ratio = {ratio.stretch, ratio.bend, ratio.torsion};
     change.damping_law = law;
     return change;
   };
@@ -318,13 +321,44 @@ TEST_F(Switching, DampingLaws) {
   EXPECT_THROW(Simulation(simulation.scene(), settings), validation::InputError);
 }
 
+TEST_F(Switching, WhatIsAbsentStays) {
+  ForkChange part;
+  part.dofs.torsion = false;
+  part.stiffness.bend = 700.0;
+  part.damping_ratio.stretch = 0.5;
+  EXPECT_FALSE(part.empty());
+  simulation.change(part);
+  const rod::ForkSettings& fork = simulation.fork_settings();
+  EXPECT_EQ(fork.dofs, (rod::ForkDofs{true, true, false}));
+  EXPECT_EQ(fork.stiffness, (rod::PerDof{2000.0, 700.0, 5.0}));
+  EXPECT_EQ(fork.damping_ratio, (rod::PerDof{0.5, 0.2, 0.2}));
+  EXPECT_TRUE(ForkChange().empty());
+}
+
+TEST_F(Switching, MessagesBeginWithTheField) {
+  ForkChange change;
+  change.stiffness.bend = -1.0;
+  SimulationSettings settings;
+  settings.fork.stiffness.bend = -1.0;
+  const std::string rule = "fork.stiffness.bend: must be a number between 0 and 1e16, got -1";
+  for (const auto& call : std::vector<std::function<void()>>{[&] { simulation.change(change); },
+                                                             [&] { Simulation(simulation.scene(), settings); }}) {
+    try {
+      call();
+      ADD_FAILURE();
+    } catch (const validation::InputError& error) {
+      EXPECT_EQ(error.what(), rule);
+    }
+  }
+}
+
 TEST_F(Switching, BadValuesChangeNothing) {
   const double nan = std::nan("");
   for (const double k : {nan, -1.0, 1e20}) {
     ForkChange change;  // its valid parts are not applied either
-    change.bend_stiffness = 700.0;
+    change.stiffness.bend = 700.0;
     change.dofs = {true, false, true};
-    change.stretch_stiffness = k;
+    change.stiffness.stretch = k;
     EXPECT_THROW(simulation.change(change), validation::InputError);
   }
   ForkChange damping;
@@ -336,7 +370,7 @@ TEST_F(Switching, BadValuesChangeNothing) {
     change.step = step;
     EXPECT_THROW(simulation.change(change), validation::InputError);
     ForkChange good;
-    good.bend_stiffness = 700.0;
+    good.stiffness.bend = 700.0;
     EXPECT_THROW(simulation.change(good, change), validation::InputError);
   }
   for (const double tolerance : {-1e-6, 0.2, nan}) {
@@ -634,7 +668,7 @@ TEST_F(HeldAtRest, SagsByItsWeight) {
 
 TEST_F(HeldAtRest, WakesWithANewStiffness) {
   ForkChange softer;
-  softer.stretch_stiffness = 500.0;
+  softer.stiffness.stretch = 500.0;
   simulation.change(softer);
   expect_awake();
 }

@@ -96,8 +96,8 @@ void act(Simulation& s, unsigned session, int k) {
   }
   ForkChange fork;
   if (chance(random, 0.05)) fork.dofs = {chance(random, 0.7), chance(random, 0.7), chance(random, 0.7)};
-  if (chance(random, 0.05)) fork.stretch_stiffness = uniform(random, 100.0, 5e3);
-  if (chance(random, 0.05)) fork.bend_stiffness = uniform(random, 100.0, 5e3);
+  if (chance(random, 0.05)) fork.stiffness.stretch = uniform(random, 100.0, 5e3);
+  if (chance(random, 0.05)) fork.stiffness.bend = uniform(random, 100.0, 5e3);
   if (chance(random, 0.03)) {
     fork.damping_ratio = {0.3, 0.3, 0.3};
     fork.damping_coefficient = {3.0, 2.0, 0.01};
@@ -227,7 +227,7 @@ TEST(State, EveryBitCounts) {
     s.advance(0.01);
     s.place({{"a", make_transform(Quaterniond::Identity(), Vector3d(x, 0, 0.3))}});
     ForkChange change;
-    change.stretch_stiffness = stiffness;
+    change.stiffness.stretch = stiffness;
     s.change(change);
     return s.state_hash();
   };
@@ -259,19 +259,18 @@ TEST(State, OfAnotherSceneIsRefused) {
   };
   const scene::Scene same = boxes(scene::ContactMode::stop);
   EXPECT_EQ(refused(Simulation(renamed, {}).save()),
-            "restore: state: must be one with bodies a b c d wall, got one with bodies z b c d wall");
+            "state: must be one with bodies a b c d wall, got one with bodies z b c d wall");
   EXPECT_EQ(refused(Simulation(fewer, {}).save()),
-            "restore: state: must be one with bodies a b c d wall, got one with bodies a b c d");
+            "state: must be one with bodies a b c d wall, got one with bodies a b c d");
   EXPECT_EQ(refused(Simulation(boxes(scene::ContactMode::none), {}).save()),
-            "restore: state: must be one with contact stop, got one with contact none");
+            "state: must be one with contact stop, got one with contact none");
   EXPECT_EQ(refused(Simulation(same, other_shape).save()),
-            "restore: state: must be one with shape linear, got one with shape bushing");
-  EXPECT_EQ(refused(Simulation(same, three).save()),
-            "restore: state: must be one with 2 styluses, got one with 3 styluses");
-  EXPECT_EQ(refused(SimulationState()), "restore: state: must be one with contact stop, got one with nothing saved");
+            "state: must be one with shape linear, got one with shape bushing");
+  EXPECT_EQ(refused(Simulation(same, three).save()), "state: must be one with 2 styluses, got one with 3 styluses");
+  EXPECT_EQ(refused(SimulationState()), "state: must be one with contact stop, got one with nothing saved");
   std::string more = serialise(s.save());
   more.insert(more.find("wall\"") + 4, "\\ndoors");
-  EXPECT_EQ(refused(parse_state(more)), "restore: state: must be one without it, got doors");
+  EXPECT_EQ(refused(parse_state(more)), "state: must be one without it, got doors");
   EXPECT_EQ(s.state_hash(), before);
 }
 

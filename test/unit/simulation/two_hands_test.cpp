@@ -159,7 +159,7 @@ TEST(TwoHands, HandsThatPassThroughEachOtherLeaveAllFiniteAndThenCarryTheWeight)
 TEST(TwoHands, AForkPushedPastItsEndLeavesItsHandleBehindUntilItComesBack) {
   BothHold two(with_stiffness(2000.0, 500.0, 5.0));
   ForkChange stiff;
-  stiff.stretch_stiffness = stiff.bend_stiffness = stiff.torsion_stiffness = 1e9;
+  stiff.stiffness.stretch = stiff.stiffness.bend = stiff.stiffness.torsion = 1e9;
   two.simulation.change(stiff, 0);
   const double L = two.simulation.tool(1).length;
   push_move(two.simulation, 0.22, 1.0, right, right - Vector3d(0.0, 0.0, 1.5 * L), 0.0, 1);
@@ -385,7 +385,7 @@ TEST(TwoHands, EachHasAForkOfItsOwn) {
   simulation.advance(5.5);
   EXPECT_LT((object(simulation, "heavy").X_WO.translation() - heavy).norm(), 1e-9);
   ForkChange stiffer;
-  stiffer.stretch_stiffness = 5.0 * simulation.tool(1).stiffness.stretch;
+  stiffer.stiffness.stretch = 5.0 * simulation.tool(1).stiffness.stretch;
   simulation.change(stiffer, 1);
   EXPECT_LT((object(simulation, "heavy").X_WO.translation() - heavy).norm(), 1e-9);
   EXPECT_NEAR(simulation.tool(0).stiffness.stretch / simulation.tool(1).stiffness.stretch, ratio / 5.0, 0.002 * ratio);

@@ -115,7 +115,7 @@ TEST(WorldCalibration, TheForkStaysAndComesBack) {
   EXPECT_EQ(simulation.fork_settings().stiffness.stretch, stiffness);
   EXPECT_NEAR(simulation.tool().stretch, 0.3 * 0.2 * 10.0 / 300.0, 1e-5);
   ForkChange change;
-  change.stretch_stiffness = 0.5 * stiffness;
+  change.stiffness.stretch = 0.5 * stiffness;
   simulation.change(change, 0);
   const Vector3d before = object(simulation, "ten").X_WO.translation();
   simulation.calibrate();

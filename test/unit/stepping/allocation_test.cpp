@@ -41,7 +41,7 @@ TEST_P(Stepping, AllocatesNothing) {
         StrainState state = c.held.zero_state();
         long counted = 0;
         for (int i = 0; i < 12; ++i) {
-          if (i == 4) c.held.set_external_wrench({m * Vector3d(0.1, 0.2, 0.3), Vector3d::Zero()});
+          if (i == 4) c.held.set_load({m * Vector3d(0.1, 0.2, 0.3), Vector3d::Zero()});
           if (i == 8) c.held.set_springs({2e3 * m, 7e2 * m, 5.0 * m}, {1.0, 1.0, 0.1});
           const long before = allocations;
           control.advance(c.held, c.hand, i * h, h, state, memory);  // a refused step is none the less one

@@ -177,7 +177,7 @@ TEST(ErrorBound, IsNoneInContactAndBeginsAnewAfterItAndAfterAChangeFromOutside) 
     for (int step = 0; step < 9; ++step) {
       const motion::MotionSegment hand = track.segment(0.02 * step);
       const bool touches = by_contact && (step == 4 || step == 5);
-      c.held.set_external_wrench({Vector3d(0, 0, touches ? 1.0 : 0.0), Vector3d::Zero()});
+      c.held.set_load({Vector3d(0, 0, touches ? 1.0 : 0.0), Vector3d::Zero()});
       const bool changed = !by_contact && step == 6;
       if (changed) state.q_dot *= 0.5;
       const double t = step == 0 ? 0.0 : memory.t;

@@ -84,7 +84,7 @@ TEST(LoadResponse, CorrectsTheEndAsAStepUnderTheOtherLoadWould) {
     for (Eigen::Index i = 0; i < begin.q.size(); ++i) begin.q[i] = 1e-3 * c.unit();
     const auto end_under = [&](const Wrench& load_W) {
       StrainState s = begin;
-      c.held->set_external_wrench(load_W);
+      c.held->set_load(load_W);
       EXPECT_TRUE(c.integrator->step(*c.held, c.hand, 0.0, c.h, s).converged) << seed;
       return s;
     };

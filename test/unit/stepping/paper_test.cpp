@@ -207,7 +207,7 @@ TEST(Paper, EndsAtTheEndOfTheRodsRange) {
     HeldBody held(rod::make_shape_model(rod::ShapeKind::linear, 0.2), body, 9.81);
     held.set_springs({1.0, 1.0, 1.0}, {0.1, 0.1, 0.1});
     StrainState state = switch_dofs(held, torsion ? 4 : 1);
-    if (torsion) held.set_external_wrench({Vector3d::Zero(), Vector3d(0.0, 0.0, 100.0)});
+    if (torsion) held.set_load({Vector3d::Zero(), Vector3d(0.0, 0.0, 100.0)});
     const motion::MotionSegment rest(RigidTransform::Identity());
     const StepControl control(paper());
     StepControl::Memory memory;
@@ -281,7 +281,7 @@ TEST(Paper, SaysHowItsStepRespondsToALoad) {
     const Wrench load{size * Vector3d(uniform(random), uniform(random), uniform(random)), Vector3d::Zero()};
     StrainState free = begin, loaded = begin;
     integrator->step(c.held, c.hand, 0.1, h, free);
-    c.held.set_external_wrench(load);
+    c.held.set_load(load);
     integrator->step(c.held, c.hand, 0.1, h, loaded);
     const auto R_HW = c.held.forcing(c.hand, 0.1 + h).X_WH.linear().transpose();
     const rod::StrainVector Q = c.held.object_jacobian(0.1 + h, begin.q).topRows<3>().transpose() * (R_HW * load.force);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "support/held_cases.h"
@@ -123,7 +125,7 @@ TEST(StepControl, GoesOnInWholeStepsWhereALoadAndTheSpringsCancel) {
     fork.damping_ratio = {1.0, 1.0, 1.0};
     c.held.set_springs(fork);
     const Vector3d F = 0.005 * stiffness * Vector3d(uniform(random), uniform(random), uniform(random));
-    c.held.set_external_wrench({F, Vector3d(0.05 * uniform(random), 0.05 * uniform(random), -0.02).cross(F)});
+    c.held.set_load({F, Vector3d(0.05 * uniform(random), 0.05 * uniform(random), -0.02).cross(F)});
     const motion::MotionSegment hand(c.held.forcing(c.hand, 0.0).X_WH);
     for (const double h : {0.02, 0.002, 0.0003}) {
       const StepControl control(test_support::make_integrator("exponential"));
@@ -312,6 +314,30 @@ TEST(StepControl, AStrainFarOffIsNotSolvedWithTheLinearPartOfAnother) {
   }
 }
 
+/// What an explicit method that diverges takes for its error is of a strain that the rod cannot have.
+TEST(StepControl, EveryNumberOfAReportIsFinite) {
+  std::mt19937 random(1);
+  for (const std::string& integrator : test_support::integrator_names()) {
+    for (const std::string& shape : test_support::shape_names()) {
+      for (const double tolerance : {0.0, 1e-3}) {
+        Case c = random_case(shape, 1.0, 0.4, random);
+        const double k = 1e4 * c.held.body().mass;
+        rod::ForkSettings fork;
+        fork.stiffness = {k, k, 0.01 * k};
+        c.held.set_springs(fork);
+        const StepControl control(test_support::make_integrator(integrator), tolerance, true);
+        StepControl::Memory memory;
+        StrainState state = c.held.zero_state();
+        for (int i = 0; i < 20; ++i) {
+          const ControlledStep step = control.advance(c.held, c.hand, 0.02 * i, 0.02, state, memory);
+          EXPECT_TRUE(std::isfinite(step.position_error + step.angle_error + step.energy_error + step.energy_added))
+              << integrator << " " << shape << " " << tolerance << " " << i << ": " << step.energy_error;
+        }
+      }
+    }
+  }
+}
+
 /// A hand that jerks and forks so stiff that rounding is more than the tolerance.
 TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
   std::mt19937 random(2);
@@ -343,6 +369,37 @@ TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
       }
     }
   }
+}
+
+/// A method whose steps are good but carry no deviation on: the two next to each other may be beyond all numbers.
+class CarriesNothing final : public Integrator {
+ public:
+  int order() const override { return 4; }
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override {
+    if (++steps_ > 1000) throw std::runtime_error("steps without end");
+    return method_->step(body, handle, t, h, state);
+  }
+  void carry(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&, const StrainState&,
+             StrainState& deviation) override {
+    deviation.q.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+ private:
+  std::unique_ptr<Integrator> method_ = make_integrator(IntegratorKind::rk4);
+  int steps_ = 0;
+};
+
+TEST(StepControl, EndsWhereTheErrorOfTheRunCannotBeCarriedOn) {
+  std::mt19937 random(3);
+  const Case c = random_case("linear", 1.0, 0.02, random);
+  const StepControl control(std::make_unique<CarriesNothing>(), 1e-6);
+  StepControl::Memory memory;
+  StrainState state = c.held.zero_state();
+  ControlledStep step;
+  ASSERT_NO_THROW(step = control.advance(c.held, c.hand, 0.0, 0.02, state, memory));
+  EXPECT_TRUE(step.accepted);
+  EXPECT_TRUE(state.q.allFinite());
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, SteppedWithATolerance, testing::ValuesIn(test_support::integrator_names()),

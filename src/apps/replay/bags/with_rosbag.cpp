@@ -223,8 +223,7 @@ std::vector<live::Entry> read_journal(const std::string& path) {
       if (const auto accepted = message.instantiate<Accepted>()) entries.push_back(to_entry(*accepted));
       if (const auto change = message.instantiate<Change>()) entries.push_back(to_entry(*change));
     }
-    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
-    return entries;
+    return live::from_first_complete(std::move(entries));
   });
 }
 

@@ -36,17 +36,20 @@ live::Command command_for(const simulation::Simulation& simulation, const Manipu
   live::Command command;
   command.kind = live::Command::Kind::settings;
   simulation::ForkChange& fork_change = command.fork_change;
-  fork_change.dofs = if_other<rod::ForkDofs>({config.stretch, config.bend, config.torsion}, fork.dofs);
-  fork_change.stretch_stiffness = if_other(config.stretch_stiffness, fork.stiffness.stretch);
-  fork_change.bend_stiffness = if_other(config.bend_stiffness, fork.stiffness.bend);
-  fork_change.torsion_stiffness = if_other(config.torsion_stiffness, fork.stiffness.torsion);
-  fork_change.damping_ratio = if_other(damping, fork.damping_ratio);
+  fork_change.dofs = {if_other(config.stretch, fork.dofs.stretch), if_other(config.bend, fork.dofs.bend),
+                      if_other(config.torsion, fork.dofs.torsion)};
+  fork_change.stiffness = {if_other(config.stretch_stiffness, fork.stiffness.stretch),
+                           if_other(config.bend_stiffness, fork.stiffness.bend),
+                           if_other(config.torsion_stiffness, fork.stiffness.torsion)};
+  fork_change.damping_ratio = {if_other(damping.stretch, fork.damping_ratio.stretch),
+                               if_other(damping.bend, fork.damping_ratio.bend),
+                               if_other(damping.torsion, fork.damping_ratio.torsion)};
   const bool one_ratio = damping == rod::PerDof{damping.stretch, damping.stretch, damping.stretch};
-  if (fork_change.damping_ratio && !one_ratio)
+  if (!fork_change.damping_ratio.empty() && !one_ratio)
     fork_change.damping_law = rod::DampingLaw::per_dof;  // modal has a single ratio
   simulation::DynamicsChange& dynamics_change = command.dynamics_change;
-  dynamics_change.integrator = if_other(
-      validation::named<dynamics::IntegratorKind>(config.integrator, "live", "integrator"), dynamics.integrator);
+  dynamics_change.integrator =
+      if_other(validation::named<dynamics::IntegratorKind>(config.integrator, "", "integrator"), dynamics.integrator);
   dynamics_change.step = if_other(config.step, dynamics.step);
   return command;
 }
@@ -70,7 +73,7 @@ class Reconfigure final : public LiveTuning {
         runner_.change("live", runner_.locked([&](const auto& present) { return command_for(present, config); }));
       }
     } catch (const validation::InputError& error) {
-      ROS_WARN_STREAM(error.what());
+      ROS_WARN_STREAM("live: " << error.what());
     }
     runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, config); });
     published_ = config;
