@@ -20,9 +20,8 @@ constexpr int max_newton_steps = 10;
 constexpr double newton_tolerance = 1e-13;
 /// The same relative to the first, if it grows: of rounding. Test: none: no value tried makes one fail.
 constexpr double newton_rounding = 1e-6;
-/// Ratio of the error of a step of `rosenbrock` to that of its two halves: between 2⁴ − 1, right for smooth motions,
-/// and 2 − 1, right for the stiffest. Test: EveryIntegrator.EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen at
-/// 1e3.
+/// Error of a step of `rosenbrock` to that of its halves: from 2⁴ − 1, if smooth, to 2 − 1, if stiff. Test:
+/// EveryIntegrator.EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen at 1e3.
 constexpr double finer_by = 10.0;
 /// Bisections of the path of a step of `paper` (its section 5). Test: Paper.SelectsTheFirstBodyInFront at 0.
 constexpr int collision_halvings = 8;

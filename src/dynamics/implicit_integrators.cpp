@@ -136,25 +136,18 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
   return {(whole.q - state.q) / finer_by, 0.0, (whole.q_dot - state.q_dot) / finer_by};
 }
 
-namespace {
-
-/// Carries deviations over a step under constant generalised forces, one per column.
-void carry_linear(const LinearisedMotion& motion, double h, const rod::StrainMatrix& force, rod::StrainMatrix& q,
-                  rod::StrainMatrix& v) {
-  const Eigen::LLT<rod::StrainMatrix> M(motion.M);
-  const auto acceleration = [&](double, const rod::StrainMatrix& q_i, const rod::StrainMatrix& v_i) {
-    return rod::StrainMatrix(M.solve(force - motion.K * q_i - motion.D * v_i));
-  };
-  rodas_step(motion, h, acceleration, rod::StrainMatrix(rod::StrainMatrix::Zero(q.rows(), q.cols())), q, v);
-}
-
-}  // namespace
-
+/// The deviations under generalised forces of 1, one per column.
 Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleForcing& handle, double h,
                                           const StrainState& state) {
   const int n = body.size();
-  Response r{rod::StrainMatrix::Zero(n, n), rod::StrainMatrix::Zero(n, n)};
-  carry_linear(LinearisedMotion(body, handle, state.q), h, rod::StrainMatrix::Identity(n, n), r.q, r.q_dot);
+  const LinearisedMotion motion(body, handle, state.q);
+  const Eigen::LLT<rod::StrainMatrix> M(motion.M);
+  const rod::StrainMatrix none = rod::StrainMatrix::Zero(n, n);
+  Response r{none, none};
+  const auto acceleration = [&](double, const rod::StrainMatrix& q, const rod::StrainMatrix& v) {
+    return rod::StrainMatrix(M.solve(rod::StrainMatrix::Identity(n, n) - motion.K * q - motion.D * v));
+  };
+  rodas_step(motion, h, acceleration, none, r.q, r.q_dot);
   return r;
 }
 

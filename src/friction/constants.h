@@ -13,8 +13,8 @@ constexpr double min_response = 1e-12;
 /// less exact where bodies hardly move, as in a short step. Test: ContactProblem.AShortStepIsSolvedAsWellAsALongOne
 /// at 1.
 constexpr double sufficient_share = 0.01;
-/// Gauss–Seidel iterations, and alternations, between two checks of the residual. Fewer: all contacts are solved together
-/// although iterations would do. Test: ContactProblem.AnEvenRowOfBoxesTakesIterationsAlone at 1.
+/// Gauss–Seidel iterations, and alternations, between two checks of the residual. Fewer: all contacts are solved
+/// together although iterations would do. Test: ContactProblem.AnEvenRowOfBoxesTakesIterationsAlone at 1.
 constexpr int check_every = 10;
 /// Ratio by which these iterations must reduce the residual for as many more to follow, and by which loads that do not
 /// solve the problem must reduce it to be taken. Larger: iterations that hardly converge are continued, and infeasible
