@@ -19,6 +19,11 @@ constexpr double probe_depth = 1e-4;
 constexpr double landing_depth = 1e-3;
 /// [s] within which they land; shorter: they tumble. Test: AlmostFlush.LandsWithAllCornersAtOnce at 1e-4.
 constexpr double landing_time = 0.02;
+/// Cosine of the angle between normals of contacts with one side of another body. Test: none: no value tried makes one
+/// fail.
+constexpr double one_side = 0.9;
+/// [m/s]; an approach that is slower counts as none. Test: none: no value tried makes one fail.
+constexpr double slow_approach = 1e-6;
 /// Cosine of the angle between normals of contacts that count as one. Test: none: no value tried makes one fail.
 constexpr double one_normal = 0.99;
 /// [m]; contacts that are nearer to each other count as one. Larger: small faces lose corners. Test:

@@ -30,7 +30,7 @@ bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows) 
 void keep_met(const std::vector<ContactRow>& met, std::vector<ContactRow>& seen) {
   std::copy_if(met.begin(), met.end(), std::back_inserter(seen), [&](const ContactRow& one) {
     return std::none_of(seen.begin(), seen.end(), [&](const ContactRow& row) {
-      return row.point.other == one.point.other && row.point.n_W.dot(one.point.n_W) > one_normal;
+      return row.point.other == one.point.other && row.point.n_W.dot(one.point.n_W) >= one_side;
     });
   });
 }

@@ -59,7 +59,7 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
     seen.clear();
     add_contacts(body.index(), pushed, touching, seen, outcome);
     for (ContactRow& row_seen : seen) {
-      if (row_seen.point.n_W.dot(n) < one_normal) continue;
+      if (row_seen.point.n_W.dot(n) < one_side) continue;
       row_seen.gap += depth * row_seen.point.n_W.dot(n);
       row_seen.point.depth = -row_seen.gap;
       rows.push_back(row_seen);
@@ -335,7 +335,7 @@ bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRo
     }
     // One that the last solution has not kept open is taken as it is.
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.point.p_W - s.X.translation());
-    met = met || v.dot(row.point.n_W) < 0.0;
+    met = met || v.dot(row.point.n_W) < -slow_approach;
     known->point = row.point;
     known->gap = std::min(known->gap, row.gap);
   }

@@ -44,7 +44,7 @@ ContactProblem::Result ContactProblem::solve(double share, double enough) {
     ++result.iterations;
     result.residual = contacts.iterate();
     if (result.residual <= wanted) return result;
-    if (result.iterations % check_every != 0) continue;
+    if (result.iterations % check_iterations != 0) continue;
     go_on = result.residual < worthwhile_reduction * before;
     before = result.residual;
   }

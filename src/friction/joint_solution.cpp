@@ -156,6 +156,10 @@ bool JointSolution::adapt_penalty(Alternation& at, const VectorXd& last_motion, 
   return true;
 }
 
+double JointSolution::target_residual(int alternation) const {
+  return alternation < max_alternations ? wanted_ : enough_;
+}
+
 void JointSolution::alternate() {
   Alternation at;
   at.w.setZero(best_.size());
@@ -169,7 +173,7 @@ void JointSolution::alternate() {
   Acceleration acceleration;
   VectorXd plain, last_motion = at.z, reduced;
   double last = infinity;
-  for (int k = 0; k < max_alternations && result_->residual > wanted_; ++k) {
+  for (int k = 0; k < max_alternations_unsolved && result_->residual > target_residual(k); ++k) {
     ++result_->iterations;
     each([&](const auto& c, Index i) {
       at.z.segment<3>(i) = at.w.segment<3>(i) + into_cone(-at.w.segment<3>(i), c.friction);
@@ -262,7 +266,7 @@ void JointSolution::linearise() {
     VectorXd reduced = contacts_->reduced(), loads = VectorXd::Zero(loads_.size());
     if (!iterate_newton(reduced, loads)) return;
     const double residual = offer(loads);
-    stalled = residual < smallest ? 0 : stalled + 1;
+    stalled = residual <= stalled_ratio * smallest ? 0 : stalled + 1;
     smallest = std::min(smallest, residual);
     if (residual <= 2.0 * smallest) {
       loads_ = loads;

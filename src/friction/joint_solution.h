@@ -18,6 +18,7 @@ class JointSolution {
   /// Takes the loads if they solve the problem better than the best so far, or, while none do, if their residual is
   /// much smaller: those of an infeasible problem grow with the penalty while it stalls. Returns their residual.
   double offer(const Eigen::VectorXd& loads);
+  double target_residual(int alternation) const;
   bool factorize(double penalty);
   void alternate();
   Eigen::VectorXd direction(const Alternation& at, Eigen::VectorXd& reduced) const;
