@@ -86,5 +86,16 @@ constexpr double min_step = 1e-9;
 /// [s]; shortest substep; in a step that is shorter than the longest substep, it is shorter in proportion. Smaller:
 /// more tries before a body is blocked. Test: LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 1e-3.
 constexpr double min_substep = 1e-5;
+/// [s] for which a held body is blocked if no motion is possible. Test: none: no other was tried.
+constexpr double blocked_substep = 2e-4;
+/// Shortest next try, as a fraction of the substep. Test: none: no other was tried.
+constexpr double min_retry = 0.1;
+/// Longest next try, as a fraction of the substep. Test: none: no other was tried.
+constexpr double max_retry = 0.7;
+/// [m] from the path of a body within which other bodies are considered. Test: none: no other was tried.
+constexpr double margin_near = 5e-4;
+/// [s]; time constant with which a body that penetrates another is pushed out. Shorter: it is thrown out. Test: none:
+/// no other was tried.
+constexpr double recovery_time = 5e-3;
 
 }  // namespace spring_workbench::contact

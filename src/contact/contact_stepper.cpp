@@ -97,7 +97,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
       // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out. Compliant
       // materials push it out with the force of their law.
       const bool complies = work[i].compliance > 0.0;
-      const double left = complies ? slack : std::max(slack, -starts[i].gap * std::exp(-h / scene::recovery_time));
+      const double left = complies ? slack : std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
       work[i].gap += left;
       if (complies) work[i].gap += depths[i];
       worst = std::max(worst, -work[i].gap);

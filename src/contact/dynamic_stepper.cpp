@@ -6,7 +6,6 @@
 #include "constants.h"
 #include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/math/so3.h"
-#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
 DynamicStepper::DynamicStepper(const scene::Scene& scene) : scene_(scene), world_(open_rigid_world(scene)) {}
@@ -27,7 +26,7 @@ DynamicStepper::Candidate DynamicStepper::try_substep(bodies::SteppedBody& body,
 bool DynamicStepper::all_free(const std::vector<Candidate>& candidates) const {
   if (others_awake()) return false;
   return std::all_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-    return is_zero(c.load_W) && (!world_->may_touch(c.body->index(), c.begin.X, c.end.X, scene::margin_near) ||
+    return is_zero(c.load_W) && (!world_->may_touch(c.body->index(), c.begin.X, c.end.X, margin_near) ||
                                  world_->collision_free_fraction(c.body->index(), c.begin.X, c.end.X) >= 1.0);
   });
 }
@@ -72,6 +71,7 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
       if (result == Result::too_long) continue;
       if (result == Result::done_unsolved) ++outcome.unsolved;
       if (result == Result::stuck) {
+        substep = std::min(blocked_substep, left);
         block(held, substep, outcome);
       }
     }
@@ -94,7 +94,7 @@ DynamicStepper::Result DynamicStepper::step_in_contact(std::vector<Candidate> ca
   const auto shorten = [&](double admissible) {
     world_->undo_step();
     start_again();
-    h = std::max(std::max(safety * admissible, reduction) * h, min_substep_);
+    h = std::max(std::clamp(safety * admissible, min_retry, max_retry) * h, min_substep_);
     return Result::too_long;
   };
   std::vector<rigid_bodies::DrivenBody> driven = solve(candidates, h);

@@ -130,7 +130,7 @@ void FreeObjects::put_to_sleep_if_slow(std::size_t object, double now) {
   const double speed =
       o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
   if (!o.in_contact || touches_moving_body(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
-  if (o.X_WO.translation().norm() > world_limit || now - objects_[object].slow_since > scene::asleep_after) {
+  if (o.X_WO.translation().norm() > world_limit || now - objects_[object].slow_since > asleep_after) {
     objects_[object].free_body.reset();
     free_.erase(object);
     o.V_WO_W = Twist();

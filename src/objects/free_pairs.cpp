@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
-#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::objects {
 
 FreePairs::FreePairs(const scene::Scene& scene, const collision::CollisionWorld& collision,
                      contact::ContactStepper& stepper)
-    : stepper_(stepper), around_(scene, collision, scene::margin_near) {}
+    : stepper_(stepper), around_(scene, collision, margin_near) {}
 
 void FreePairs::begin(double h) {
   around_.clear();

@@ -133,7 +133,7 @@ std::vector<Contacts> contacts_between(const btCollisionObjectWrapper& a, const 
     if (const auto c = continued(point, contacts, a, b)) deep.push_back(*c);
   }
   contacts.insert(contacts.end(), deep.begin(), deep.end());
-  const bool touch = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.gap < closed; });
+  const bool touch = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.gap < closed_gap; });
   if (touch || !geometry::overlap(solid_of(a), X_WA, solid_of(b), X_WB)) return by_normal(contacts);
   std::vector<Contacts> groups = by_normal(found(0.0, std::numeric_limits<double>::infinity()));
   missing = groups.empty();
@@ -199,7 +199,7 @@ void let_pass(const geometry::Solid& a, const RigidTransform& X_WA, const Moving
   };
   for (geometry::BoxContact& c : contacts) {
     const Vector3d motion = h * (moving_a.at(c.p_W) - moving_b.at(c.p_W));
-    if (!(c.gap > closed && c.gap + c.n_W.dot(motion) < 0.0)) continue;
+    if (!(c.gap > closed_gap && c.gap + c.n_W.dot(motion) < 0.0)) continue;
     const Vector3d across = c.n_W - c.n_W.dot(motion) / motion.squaredNorm() * motion;
     if (across.isZero(0.0)) continue;
     const Vector3d n = across.normalized();
@@ -249,7 +249,7 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
         return manifold->getNumContacts() < MANIFOLD_CACHE_SIZE;
       });
       if (free == manifolds_.end()) {
-        miss(c.gap < closed);
+        miss(c.gap < closed_gap);
         continue;
       }
       btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());

@@ -66,7 +66,7 @@ double depth_between(std::size_t a, std::size_t b, const std::vector<WorldContac
 
 BulletWorld::BulletWorld(const scene::Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
-  static const double set_once = gDeactivationTime = scene::asleep_after;  // worlds may be made in several threads
+  static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
   static_cast<void>(set_once);
   configuration_.setConvexConvexMultipointIterations(4, 4);  // two cylinders touch all along at once
   world_.setGravity(btVector3(0.0, 0.0, -scene_.gravity));
@@ -186,7 +186,7 @@ Extent BulletWorld::path_of(std::size_t index, double h) const {
   Extent box = geometry::bounding_box(item.box_O, item.X_WO);
   const double arc = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
   box.extend(Extent(box).translate(h * item.V_WO_W.linear));
-  return geometry::grown(box, arc + scene::margin_near);
+  return geometry::grown(box, arc + margin_near);
 }
 
 std::vector<std::size_t> BulletWorld::inside(const Extent& box_W) const {
@@ -219,7 +219,7 @@ void BulletWorld::take_contacts() {
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
       const double gap = point.getDistance() + 2.0 * contact_skin;
-      if (!(point.m_appliedImpulse > 0.0) && gap > closed) continue;
+      if (!(point.m_appliedImpulse > 0.0) && gap > closed_gap) continue;
       WorldContact c;
       const bool first_is_body = a >= 0;
       c.body = static_cast<std::size_t>(first_is_body ? a : b);
@@ -341,7 +341,7 @@ RigidWorld::Bodies BulletWorld::movable_near(std::size_t body, const RigidTransf
                                              double h, const Bodies& carried, std::size_t max_count) const {
   if (items_[body].leaf == nullptr) return {};
   std::set<std::size_t> near;
-  const Extent path = swept(items_[body], X0_WO, X1_WO, scene::margin_near);
+  const Extent path = swept(items_[body], X0_WO, X1_WO, margin_near);
   const auto add = [&](const Bodies& of, const auto& is) {
     std::copy_if(of.begin(), of.end(), std::inserter(near, near.end()), [&](auto i) { return i != body && is(i); });
   };

@@ -14,9 +14,15 @@ constexpr double contact_margin = 3e-3;
 /// solver knows it before. Larger: spheres roll on a larger radius. Test:
 /// RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed.
 constexpr double contact_skin = 1e-4;
+/// [m] distance from an awake body within which bodies enter Bullet's world. Contact mode `dynamic` itself uses 0.5 mm:
+/// no reason known. Test: RigidWorld.SleepersCostNothingAndStay at 0.2.
+constexpr double margin_near = 2e-3;
 /// Number of steps without an awake body near after which a sleeping body leaves Bullet's world. Fewer: it enters and
 /// leaves repeatedly; more: it costs longer. Test: RigidWorld.SleepersCostNothingAndStay at 5000.
 constexpr int steps_until_left = 50;
+/// [s] for which a body is slow before it sleeps. With contact mode `stop` 0.2 s: no reason known. Test:
+/// RigidWorld.StackOfTenStandsAndSleeps at 5.
+constexpr double asleep_after = 0.5;
 /// Fraction of a penetration between free bodies that is corrected in a step. Larger: piles tremble. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 2.
 constexpr double penetration_share = 0.2;
@@ -43,14 +49,20 @@ constexpr double one_normal = 0.99;
 /// Manifolds of four contacts for a pair of shapes other than boxes. Fewer: it is not stopped in all directions, which
 /// counts. Test: RigidWorld.ABoxStopsInANotchWithBothItsFaces at 1.
 constexpr std::size_t max_manifolds = 8;
+/// [m] gap below which a contact without impulse is reported. Test: none: no value tried makes one fail.
+constexpr double closed_gap = 1e-5;
 /// [m] largest residual of the contacts of a solved step. Larger: friction is as much less exact. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 1e-3.
 constexpr double solved_to = 1e-6;
 /// The same as a fraction of the largest motion without loads, if it takes few iterations to get there. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 0.1.
 constexpr double solved_share = 1e-4;
-/// [m] gap below which a contact is stopped by an impulse, and reported if it has none. Test:
-/// RigidWorld.WhatPassesAMillimetreBesideAnEdgeIsNotFelt at 1e-2.
+/// [m] gap below which a contact is stopped by an impulse. Test: none: no value tried makes one fail.
 constexpr double closed = 5e-5;
+/// [s] in which a penetration by a driven body is corrected. Shorter: the correction becomes a velocity. Contact mode
+/// `stop` uses 5 ms: no reason known. Test: none: no value tried makes one fail.
+constexpr double recovery_time = 2e-3;
+/// [m/s] approach speed of a driven body below which it counts as none. Test: none: no value tried makes one fail.
+constexpr double slow = 1e-7;
 
 }  // namespace spring_workbench::rigid_bodies

@@ -118,7 +118,7 @@ double DrivenSolver::missing_along_normal(const Contact& contact, const btContac
   if (!drives(contact)) return -contact.motion[0] - std::max(0.0, left);  // a penetration is undone by Bullet
   // A driven body's velocity is its path over the step. A penetration is undone slowly, or it would become a speed.
   const double undone =
-      (pushes(contact.a) || pushes(contact.b) ? info.m_erp2 : 1.0) * std::min(1.0, h_ / scene::recovery_time);
+      (pushes(contact.a) || pushes(contact.b) ? info.m_erp2 : 1.0) * std::min(1.0, h_ / recovery_time);
   return -contact.motion[0] - (contact.gap < 0.0 ? undone : 1.0) * left;
 }
 
@@ -177,7 +177,7 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(const std::vector<Contact>& 
     c.motion = motion(contact, true);
     c.missing = -c.motion;
     c.impulse.setZero();
-    approach = approach || (drives(c) && c.missing[0] > 0.0);
+    approach = approach || (drives(c) && c.missing[0] > slow);
     const bool bounces = c.missing[0] > scene::rest_speed && !surfaces_.complies(c.surface);
     c.restitution = bounces ? c.point->m_combinedRestitution : 0.0;
     closed_ones.push_back(c);

@@ -12,15 +12,6 @@ constexpr double rest_speed = 0.02;
 /// Speed [m/s]; a body in contact is put to sleep when all its points have been slower than this for long enough. If
 /// larger, creeping bodies stop. Test: RigidWorld.StackOfTenStandsAndSleeps at 0.
 constexpr double asleep_speed = 2e-3;
-/// Time for which a body must be slow before it is put to sleep [s]. If longer, it costs processor time for longer.
-/// Test: Simulation.BoxThatIsDroppedComesToRestOnTheBench at 20.
-constexpr double asleep_after = 0.5;
-/// Distance from the path of a body within which others count as near [m]. If larger, bodies that collide are less
-/// often stepped alone, and more sleepers are looked at. Test: RigidWorld.SleepersCostNothingAndStay at 0.2.
-constexpr double margin_near = 2e-3;
-/// Time constant with which a body that penetrates another is pushed out [s]. If shorter, it is thrown out. Test:
-/// RigidWorld.ADrivenBodyMakesRoomForALightOneThatComesOutOfTheBench at 1.
-constexpr double recovery_time = 5e-3;
 /// cos 1°; normals within this angle belong to one face. If smaller, contacts of two faces are treated as those of one.
 /// Test: Bench.AFineMeshGivesFewPointsThatKeepItsExtent.
 constexpr double same_face = 0.9998;
