@@ -10,8 +10,8 @@ namespace spring_workbench::friction {
 /// bodies get no load. Test: none: no value tried makes one fail.
 constexpr double min_response = 1e-12;
 /// Largest residual that is sufficient, as a fraction of the largest motion without loads. Larger: loads are as much
-/// less exact where bodies hardly move, as in a short step. Test: ContactProblem.AShortStepIsSolvedAsWellAsALongOne
-/// at 1.
+/// less exact where bodies hardly move, as in a short step. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at
+/// 1e-6.
 constexpr double sufficient_share = 0.01;
 /// Gauss–Seidel iterations between two checks of the residual. Fewer: all contacts are solved together although
 /// iterations would do. Test: ContactProblem.AnEvenRowOfBoxesTakesIterationsAlone at 1.
@@ -23,7 +23,7 @@ constexpr double worthwhile_reduction = 0.3;
 /// Number of bodies above which factorising costs more than the finer residual is worth. Test: none: costs alone.
 constexpr std::size_t max_bodies_factorised = 200;
 /// Largest number of alternations for the finer residual. Fewer: Newton's method, which factorises in each iteration,
-/// is needed more often. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
+/// is needed more often. Test: RigidWorld.StackOfTenStandsAndSleeps at 0.
 constexpr int max_alternations = 60;
 /// The same for the residual that is sufficient. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
 constexpr int max_alternations_unsolved = 120;
@@ -34,7 +34,7 @@ constexpr int penalty_every = 20;
 /// Depth of the Anderson acceleration. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 1.
 constexpr int anderson_depth = 5;
 /// Ratio of the primal to the dual residual above which the penalty is adapted. Larger: slower convergence. Test:
-/// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1e9.
+/// none: no value tried makes one fail.
 constexpr double penalty_imbalance = 5.0;
 /// Growth of an accelerated step above which it is discarded. Test:
 /// ContactProblem.AHeavyCubeOnALightOneSharesItsWeightOut at 0.1.
@@ -50,7 +50,7 @@ constexpr double max_penalty = 1e10;
 /// at 0.
 constexpr int max_rounds = 20;
 /// Ratio of successive residuals above which a set counts as stalled. Test:
-/// ContactProblem.RandomContactsKeepCoulombsLaw at 0.
+/// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 0.
 constexpr double stalled_ratio = 0.99;
 /// Successive stalled sets after which the problem counts as infeasible, as between walls that leave no
 /// room. Test: ContactProblem.RandomContactsKeepCoulombsLaw at 1.
