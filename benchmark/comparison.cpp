@@ -102,6 +102,24 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
   return pairs;
 }
 
+std::optional<double> SceneRows::ratio_within(const ErrorTarget& target,
+                                              const std::function<bool(const std::string&)>& wanted) const {
+  const auto least_time = [&](const std::string& method) {
+    const auto line = curve(
+        rows, [&](const ErrorRow& row) { return row.method == method; }, target.measure);
+    return run_time_for_error(line, target.error);
+  };
+  const std::optional<double> ours = least_time(kOurs);
+  std::optional<double> others;
+  for (const ErrorRow& row : rows) {
+    if (row.ours || !wanted(row.method) || !is_resolved(rows, row.method, target)) continue;
+    const std::optional<double> time = least_time(row.method);
+    if (time) others = std::min(others.value_or(*time), *time);
+  }
+  if (!ours || !others) return std::nullopt;
+  return *others / *ours;
+}
+
 std::vector<std::string> SceneRows::not_compared(const ErrorTarget& target,
                                                  const std::function<bool(const std::string&)>& wanted) const {
   std::vector<std::string> names;

@@ -50,6 +50,10 @@ struct SceneRows {
   /// Compares ours with each `wanted` method of others. The worst results for ours come first, those that neither
   /// reaches last. Skips those of not_compared().
   std::vector<Pair> pairs(const ErrorTarget& target, const std::function<bool(const std::string&)>& wanted) const;
+  /// Ratio of the least run time that any `wanted` method of others needs for an error of at most the target, to the
+  /// least of ours; at each method's own error. Nothing unless both reach it.
+  std::optional<double> ratio_within(const ErrorTarget& target,
+                                     const std::function<bool(const std::string&)>& wanted) const;
   /// The `wanted` methods of others that are measured against their own limit, which is not known well enough for the
   /// target.
   std::vector<std::string> not_compared(const ErrorTarget& target,

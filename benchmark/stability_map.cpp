@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -57,6 +56,7 @@ class CellRun {
     outcome_.steps += report.steps;
     outcome_.stops += report.stops;
     outcome_.fallback += report.steps_fallback;
+    outcome_.substeps += report.substeps;
     estimated_ = report.energy_error;
     const bodies::BodyState& object = simulation_.objects()[0];
     const Twist& V = object.V_WO_W;
@@ -119,6 +119,10 @@ void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRo
   row.steps += outcome.steps;
   row.stops += outcome.stops;
   row.fallback += outcome.fallback;
+  row.substeps += outcome.substeps;
+  row.turning += cell.tail == MapTail::lissajous;
+  row.energy_growth = std::max(row.energy_growth, outcome.energy_growth);
+  row.energy_estimated = std::max(row.energy_estimated, outcome.energy_estimated);
   row.finite += outcome.finite;
   row.bounded += outcome.bounded;
   row.energy_kept += outcome.energy_kept();
@@ -151,6 +155,10 @@ void add(const StabilityRow& row, StabilityRow& sum) {
   sum.steps += row.steps;
   sum.stops += row.stops;
   sum.fallback += row.fallback;
+  sum.substeps += row.substeps;
+  sum.turning += row.turning;
+  sum.energy_growth = std::max(sum.energy_growth, row.energy_growth);
+  sum.energy_estimated = std::max(sum.energy_estimated, row.energy_estimated);
 }
 
 StabilityMap map_of(const std::vector<StabilityRun>& cells) {
@@ -208,42 +216,14 @@ StabilityPlan stability_plan(bool quick) {
 
 namespace {
 
-/// A cell and the numbers of its values.
-struct DrawnCell {
-  StabilityCell cell;
-  std::vector<std::size_t> values;
-};
-
-std::vector<DrawnCell> drawn_cells(const StabilityPlan& plan, std::size_t count) {
+std::vector<StabilityCell> drawn_cells(const StabilityPlan& plan, std::size_t count) {
   std::mt19937 random(20);
-  std::vector<DrawnCell> drawn(count);
-  for (DrawnCell& one : drawn) {
-    one.cell =
-        cell_of(plan, [&](const auto& values) { return values[one.values.emplace_back(random() % values.size())]; });
-    one.cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
+  std::vector<StabilityCell> drawn(count);
+  for (StabilityCell& cell : drawn) {
+    cell = cell_of(plan, [&](const auto& values) { return values[random() % values.size()]; });
+    cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
   }
   return drawn;
-}
-
-/// Few of these cells that contain every pair of values that all of them contain: first those with many new pairs.
-std::vector<DrawnCell> covering(const std::vector<DrawnCell>& drawn) {
-  std::set<std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>> seen;
-  const auto pairs = [](const DrawnCell& one, const auto& take) {
-    for (std::size_t a = 0; a < one.values.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) take(std::tuple(a, b, one.values[a], one.values[b]));
-    }
-  };
-  std::vector<DrawnCell> chosen;
-  for (std::size_t wanted = 21; wanted > 0; --wanted) {  // two of seven values
-    for (const DrawnCell& one : drawn) {
-      std::size_t unseen = 0;
-      pairs(one, [&](const auto& pair) { unseen += 1 - seen.count(pair); });
-      if (unseen < wanted) continue;
-      pairs(one, [&](const auto& pair) { seen.insert(pair); });
-      chosen.push_back(one);
-    }
-  }
-  return chosen;
 }
 
 }  // namespace
@@ -252,10 +232,10 @@ std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string
   const bool is_default = integrator == validation::name_of(dynamics::DynamicsSettings().integrator);
   const bool is_explicit = integrator == "rk4" || integrator == "semi_implicit_euler";
   std::vector<StabilityCell> cells;
-  for (DrawnCell one : is_default ? drawn_cells(plan, plan.cells) : covering(drawn_cells(plan, plan.cells_of_others))) {
-    if (one.cell.stiffness_factor != stiffness_factor) continue;
-    if (is_explicit) one.cell.seconds = plan.seconds;
-    cells.push_back(one.cell);
+  for (StabilityCell& cell : drawn_cells(plan, is_default ? plan.cells : plan.cells_of_others)) {
+    if (cell.stiffness_factor != stiffness_factor) continue;
+    if (is_explicit) cell.seconds = plan.seconds;
+    cells.push_back(cell);
   }
   std::stable_sort(cells.begin(), cells.end(), [](const StabilityCell& a, const StabilityCell& b) {
     return std::tuple(a.mass, a.step, a.damping_ratio) < std::tuple(b.mass, b.step, b.damping_ratio);
@@ -368,13 +348,16 @@ std::string stability_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_judged,energy_kept,"
          "none_refused,"
-         "held,cannot_fail,real_time,three_times,on_its_own,steps,stops,steps_fallback\n";
+         "held,cannot_fail,real_time,three_times,on_its_own,turning,steps,substeps,stops,steps_fallback,fallback_share,"
+         "energy_growth,energy_estimated\n";
   for (const StabilityRow& row : map.rows) {
     out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step
         << ',' << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ','
         << row.energy_judged << ',' << row.energy_kept << ',' << row.none_refused << ',' << row.held << ','
         << row.cannot_fail << ',' << row.real_time << ',' << row.three_times << ',' << row.on_its_own << ','
-        << row.steps << ',' << row.stops << ',' << row.fallback << '\n';
+        << row.turning << ',' << row.steps << ',' << row.substeps << ',' << row.stops << ',' << row.fallback << ','
+        << (row.steps > 0.0 ? row.fallback / row.steps : 0.0) << ',' << row.energy_growth << ',' << row.energy_estimated
+        << '\n';
   }
   return out.str();
 }
@@ -382,14 +365,15 @@ std::string stability_csv(const StabilityMap& map) {
 std::string failures_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,tail,seconds,finite,bounded,"
-         "energy_judged,energy_growth,energy_estimated,steps_refused,steps,stops,steps_fallback,processor_time\n";
+         "energy_judged,energy_growth,energy_estimated,steps_refused,steps,substeps,stops,steps_fallback,"
+         "processor_time\n";
   for (const StabilityRun& f : map.failures) {
     out << f.integrator << ',' << f.shape << ',' << f.cell.stiffness_factor << ',' << f.cell.mass << ',' << f.cell.step
         << ',' << f.cell.damping_ratio << ',' << dofs_name(f.cell.dofs) << ',' << name_of(f.cell.hand) << ','
         << name_of(f.cell.tail) << ',' << f.cell.seconds << ',' << f.outcome.finite << ',' << f.outcome.bounded << ','
         << f.outcome.energy_judged << ',' << f.outcome.energy_growth << ',' << f.outcome.energy_estimated << ','
-        << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.stops << ',' << f.outcome.fallback << ','
-        << f.outcome.processor << '\n';
+        << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.substeps << ',' << f.outcome.stops << ','
+        << f.outcome.fallback << ',' << f.outcome.processor << '\n';
   }
   return out.str();
 }

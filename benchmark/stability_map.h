@@ -12,7 +12,7 @@
 namespace spring_workbench::benchmark {
 
 /// The varied parameters. Cells are random combinations (seeded), enough to contain every pair of values. Another
-/// integrator than the default one has fewer: some of the first `cells_of_others` that contain every pair.
+/// integrator than the default one has the first `cells_of_others` of them.
 struct StabilityPlan {
   std::vector<std::string> integrators;
   std::vector<std::string> shapes;
@@ -23,8 +23,8 @@ struct StabilityPlan {
   std::vector<rod::ForkDofs> dofs;
   std::vector<MapHand> hands;
   std::vector<MapTail> tails;
-  std::size_t cells = 2000;           ///< number for the default integrator and each shape
-  std::size_t cells_of_others = 500;  ///< number of them among which those of each other integrator are chosen
+  std::size_t cells = 4000;           ///< number for the default integrator and each shape
+  std::size_t cells_of_others = 500;  ///< number of them for each other integrator
   double seconds = 10.0;              ///< duration of the hand's tail [s]
   std::size_t long_one = 200;         ///< one cell in this many has six times that duration
 };
@@ -55,11 +55,13 @@ struct StabilityOutcome {
       false;        ///< whether the energy could be judged: run completed, and the work of the hand known well enough
   int refused = 0;  ///< steps rejected
   int steps = 0, stops = 0, fallback = 0;  ///< steps of the integrator; that reached a stop; taken by the L-stable rule
+  int substeps = 0;                        ///< steps discarded and repeated as shorter ones
   double processor = 0.0;                  ///< ratio of processor time to simulated time
   bool energy_kept() const { return energy_growth <= 1e-9 && energy_estimated <= EnergyWatch::max_share; }
   bool held() const { return finite && bounded && energy_kept() && refused == 0; }
-  /// Whether it held without the L-stable rule and without the end of the rod's range: by the integrator alone.
-  bool held_on_its_own() const { return held() && stops + fallback == 0; }
+  /// Whether it held in steps of the length set, without the L-stable rule and without the end of the rod's range: by
+  /// the integrator alone.
+  bool held_on_its_own() const { return held() && stops + fallback + substeps == 0; }
 };
 
 /// Whether `a` is worse than `b`: compares finite, then bounded, then energy growth, then rejected steps.
@@ -76,15 +78,17 @@ struct StabilityRow {
   int cannot_fail = 0;  ///< additional cells that cannot fail
   int cells = 0, finite = 0, bounded = 0, energy_judged = 0, energy_kept = 0, none_refused = 0, held = 0;
   int real_time = 0, three_times = 0;  ///< cells with processor time below one and below three times the simulated time
-  int on_its_own = 0;                  ///< cells that hold without a stop and without the fallback
-  double steps = 0.0, stops = 0.0, fallback = 0.0;
+  int on_its_own = 0;                  ///< cells of StabilityOutcome::held_on_its_own()
+  int turning = 0;  ///< cells whose hand turns to the end: neither the object's reach nor its energy is judged
+  double steps = 0.0, stops = 0.0, fallback = 0.0, substeps = 0.0;
+  double energy_growth = 0.0, energy_estimated = 0.0;  ///< the largest of the outcomes
 };
 
 template <typename Fields>
 void each_field(StabilityRow& r, Fields& fields) {
   fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded,
          r.energy_judged, r.energy_kept, r.none_refused, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps,
-         r.stops, r.fallback, r.on_its_own);
+         r.stops, r.fallback, r.on_its_own, r.turning, r.substeps, r.energy_growth, r.energy_estimated);
 }
 
 /// The sum of the rows of one integrator, or of one and its shape.
@@ -102,7 +106,7 @@ void each_field(StabilityRun& f, Fields& fields) {
   StabilityOutcome& o = f.outcome;
   fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.dofs.stretch, c.dofs.bend,
          c.dofs.torsion, c.hand, c.tail, c.seconds, o.finite, o.bounded, o.energy_growth, o.energy_estimated,
-         o.energy_judged, o.refused, o.steps, o.stops, o.fallback, o.processor);
+         o.energy_judged, o.refused, o.steps, o.stops, o.fallback, o.substeps, o.processor);
 }
 
 struct StabilityMap {

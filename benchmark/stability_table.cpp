@@ -15,8 +15,10 @@ StabilityCount count_stable(const Method& method, SceneKind kind) {
                                                   : six_dof_scene(std::pow(10.0, decade - 2), 1.0, mass);
       scene.duration = 1.0;
       for (const int steps : {1, 2, 5, 20}) {
-        const bool stable = run_isolated(method, scene, scene.output_interval / steps, {}, 10.0).finite;
+        const RunResult result = run_isolated(method, scene, scene.output_interval / steps, {}, 10.0);
+        const bool stable = result.finite;
         count.stable += stable;
+        count.with_fallback += result.steps_fallback > 0;
         count.stable_at_50_hz += stable && steps == 1;
         count.total_at_50_hz += steps == 1;
         ++count.total;
@@ -47,10 +49,10 @@ std::vector<StabilityCount> stability_table(const std::vector<const Method*>& me
 
 std::string stability_counts_csv(const std::vector<StabilityCount>& counts) {
   std::ostringstream out;
-  out << "method,scene,stable,total,stable_at_50_hz,total_at_50_hz\n";
+  out << "method,scene,stable,total,stable_at_50_hz,total_at_50_hz,with_fallback\n";
   for (const StabilityCount& count : counts) {
     out << count.method << ',' << count.scene << ',' << count.stable << ',' << count.total << ','
-        << count.stable_at_50_hz << ',' << count.total_at_50_hz << '\n';
+        << count.stable_at_50_hz << ',' << count.total_at_50_hz << ',' << count.with_fallback << '\n';
   }
   return out.str();
 }

@@ -16,11 +16,12 @@ struct StabilityCount {
   int total = 0;
   int stable_at_50_hz = 0;  ///< of those with one step per output
   int total_at_50_hz = 0;
+  int with_fallback = 0;  ///< of all cases, those in which our fallback rule took steps
 };
 
 template <typename Fields>
 void each_field(StabilityCount& c, Fields& fields) {
-  fields(c.method, c.scene, c.stable, c.total, c.stable_at_50_hz, c.total_at_50_hz);
+  fields(c.method, c.scene, c.stable, c.total, c.stable_at_50_hz, c.total_at_50_hz, c.with_fallback);
 }
 
 /// Runs scene A (k = 1 … 1e10 N/m) or C (factor 1e-2 … 1e8) for one second with 11 decades of stiffness, 5 masses from

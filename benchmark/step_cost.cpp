@@ -81,10 +81,17 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
   });
 }
 
-/// A simulation with the default fork and all samples of a tracked hand pushed, 20 ms after the grasp (`grasped`) or
-/// before it.
-simulation::Simulation simulation_of(const RodCase& one, bool grasped) {
-  simulation::Simulation simulation(rod_scene(one), rod_settings(one, "linear", "exponential", interval));
+using Settings = simulation::SimulationSettings;
+
+/// A simulation with all samples of a tracked hand pushed, 20 ms after the grasp (`grasped`) or before it; a bench is
+/// far below.
+simulation::Simulation simulation_of(const RodCase& one, const Settings& settings, bool grasped) {
+  scene::Scene scene = rod_scene(one);
+  scene::Body& bench = scene.bodies.emplace_back();
+  bench.name = "bench";
+  bench.collision.push_back({geometry::Box{Vector3d(1.0, 1.0, 0.1)}});
+  bench.X_WO.translation().z() = -2.0;
+  simulation::Simulation simulation(scene, settings);
   for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
   if (grasped) simulation.advance(interval);
   return simulation;
@@ -92,11 +99,11 @@ simulation::Simulation simulation_of(const RodCase& one, bool grasped) {
 
 /// Mean cost [ns] of 20 ms of Simulation after a `change`, minimum over some runs.
 template <typename Change>
-double advance_cost(const RodCase& one, Change&& change) {
+double advance_cost(const RodCase& one, const Settings& settings, Change&& change) {
   constexpr int runs = 5;
   double best = std::numeric_limits<double>::infinity();
   for (int run = 0; run < runs; ++run) {
-    simulation::Simulation simulation = simulation_of(one, true);
+    simulation::Simulation simulation = simulation_of(one, settings, true);
     const double begin = thread_nanoseconds();
     for (int i = 2; i < calls; ++i) {
       change(simulation, i % 2 == 0);
@@ -108,10 +115,10 @@ double advance_cost(const RodCase& one, Change&& change) {
 }
 
 /// The same for the first 20 ms after a grasp.
-double grasp_cost(const RodCase& one) {
+double grasp_cost(const RodCase& one, const Settings& settings) {
   double best = std::numeric_limits<double>::infinity();
   for (int run = 0; run < calls; ++run) {
-    simulation::Simulation simulation = simulation_of(one, false);
+    simulation::Simulation simulation = simulation_of(one, settings, false);
     const double begin = thread_nanoseconds();
     simulation.advance(interval);
     best = std::min(best, thread_nanoseconds() - begin);
@@ -119,24 +126,33 @@ double grasp_cost(const RodCase& one) {
   return best;
 }
 
-/// Cost of changes for a user of Simulation without contact.
+/// Cost of 20 ms for a user of Simulation with the default fork: without contact, with nothing near, with a bound of
+/// the error; and of changes, without contact.
 void add_advances(std::vector<StepCost>& costs) {
   RodCase one;
   one.name = "default fork";
   one.hand = synthetic_hand(1, (calls + 2) * interval);
   const auto note = [&](const char* part, double nanoseconds) { costs.push_back({"linear", 6, part, nanoseconds}); };
-  note("advance by 20 ms", advance_cost(one, [](simulation::Simulation&, bool) {}));
-  note("advance after a change of stiffness", advance_cost(one, [](simulation::Simulation& simulation, bool even) {
+  const Settings settings = rod_settings(one, "linear", "exponential", interval);
+  const auto nothing = [](simulation::Simulation&, bool) {};
+  note("advance by 20 ms", advance_cost(one, settings, nothing));
+  Settings with_contact = settings, with_bound = settings;
+  with_contact.contact = scene::ContactMode::stop;
+  with_bound.dynamics.error_bound = true;
+  note("advance by 20 ms, contact stop", advance_cost(one, with_contact, nothing));
+  note("advance by 20 ms, error bound", advance_cost(one, with_bound, nothing));
+  note("advance after a change of stiffness",
+       advance_cost(one, settings, [](simulation::Simulation& simulation, bool even) {
          simulation::ForkChange change;
          change.stiffness.bend = even ? 500.0 : 510.0;
          simulation.change(change);
        }));
-  note("advance after a switch of DOFs", advance_cost(one, [](simulation::Simulation& simulation, bool even) {
+  note("advance after a switch of DOFs", advance_cost(one, settings, [](simulation::Simulation& simulation, bool even) {
          simulation::ForkChange change;
          change.dofs = {true, true, even};
          simulation.change(change);
        }));
-  note("advance after a grasp", grasp_cost(one));
+  note("advance after a grasp", grasp_cost(one, settings));
 }
 
 }  // namespace

@@ -41,6 +41,10 @@ struct Verdict {
   /// For run times that are judged, the ratio of the other's to ours, or a lower bound (see Pair::ratio()); the
   /// smallest one if they are compared at several errors.
   std::optional<double> ratio = {};
+  std::string peer = {};                       ///< the method of that ratio
+  std::optional<double> error = {};            ///< the error at which it is compared, in the claim's measure; see Pair
+  std::optional<double> within = {};           ///< SceneRows::ratio_within() the claim's error
+  std::optional<double> left_by_samples = {};  ///< of the largest deflection, if it is known
 };
 std::string name_of(Verdict::Result result);
 

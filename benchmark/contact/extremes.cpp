@@ -252,6 +252,7 @@ ExtremeOutcome run(const ExtremeCell& cell) {
     const simulation::AdvanceReport report = simulation.advance(interval * i);
     outcome.refused += report.steps_rejected;
     outcome.steps_blocked += report.steps_blocked;
+    outcome.steps_unsolved += report.steps_unsolved;
     if (!watch.look(interval * i > pressing + shifting + 1.5 * interval, outcome)) break;
   }
   return outcome;

@@ -38,13 +38,14 @@ struct ExtremeOutcome {
   /// Largest growth of the energy of all objects and the fork while the hand rests, beyond the work of a proxy handle
   /// that returns to the hand, divided by the weights plus the largest sum of contact forces: the equivalent depth [m].
   double energy_gained = 0.0;
-  double pushed = 0.0;    ///< largest displacement of an object that is not held [m]
-  int refused = 0;        ///< steps rejected as not finite or impossible
-  int steps_blocked = 0;  ///< steps in which contact did not allow the held box to move
+  double pushed = 0.0;     ///< largest displacement of an object that is not held [m]
+  int refused = 0;         ///< steps rejected as not finite or impossible
+  int steps_blocked = 0;   ///< steps in which contact did not allow the held box to move
+  int steps_unsolved = 0;  ///< substeps in which a contact among movable objects broke its law
   bool stays_out() const { return penetration <= 1e-4; }
   bool gains_nothing() const { return energy_gained <= 3e-6; }
   bool held() const {
-    return finite && bounded && stays_out() && gains_nothing() && refused == 0 && steps_blocked == 0;
+    return finite && bounded && stays_out() && gains_nothing() && refused + steps_blocked + steps_unsolved == 0;
   }
 };
 ExtremeOutcome run(const ExtremeCell& cell);

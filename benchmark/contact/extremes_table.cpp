@@ -62,12 +62,12 @@ std::vector<ExtremeRow> extremes_table(bool quick, Units& units) {
 std::string extremes_csv(const std::vector<ExtremeRow>& rows) {
   std::ostringstream out;
   out << "extreme,contact,stiffness,step,seed,finite,bounded,penetration_um,energy_gained_um,steps_refused,"
-         "steps_blocked,held\n";
+         "steps_blocked,steps_unsolved,held\n";
   for (const ExtremeRow& row : rows) {
     const ExtremeOutcome& o = row.outcome;
     out << row.extreme << ',' << row.contact << ',' << row.stiffness << ',' << row.step << ',' << row.seed << ','
         << o.finite << ',' << o.bounded << ',' << 1e6 * o.penetration << ',' << 1e6 * o.energy_gained << ','
-        << o.refused << ',' << o.steps_blocked << ',' << o.held() << '\n';
+        << o.refused << ',' << o.steps_blocked << ',' << o.steps_unsolved << ',' << o.held() << '\n';
   }
   return out.str();
 }

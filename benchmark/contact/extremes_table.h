@@ -19,7 +19,7 @@ template <typename Fields>
 void each_field(ExtremeRow& r, Fields& fields) {
   ExtremeOutcome& o = r.outcome;
   fields(r.extreme, r.contact, r.stiffness, r.step, r.seed, o.finite, o.bounded, o.penetration, o.energy_gained,
-         o.refused, o.steps_blocked);
+         o.refused, o.steps_blocked, o.steps_unsolved);
 }
 
 /// Runs every limit case in both contact modes, with forks of 1 … 1e9 N/m and steps of 1/20 … 1/1000 s in turn, on all

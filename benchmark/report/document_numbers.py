@@ -12,6 +12,10 @@ was run that wrote the table, by the command in its header.
 
     of a quick<!-- run of verdicts.csv --> run
 
+`word` is no number either, but what the one row chosen has in a column, the last word before the marker:
+
+    against rk4<!-- word peer of verdicts.csv where claim~^Scene A × 1, verdict=FAIL -->
+
 Whole rows stand between two markers, each on a line of its own:
 
     <!-- rows claim, measured of verdicts.csv where verdict=FAIL -->
@@ -39,6 +43,7 @@ VALUE = r"(the|max|min|mean|sum|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.
 MARKER = re.compile(rf"<!--\s*{VALUE}(?:\s+times\s+([-+.\deE]+))?\s*-->")
 ALL = re.compile(r"<!--\s*all\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?\s*-->")
 LESS = re.compile(rf"<!--\s*less\s+{VALUE}\s+than\s+{VALUE}\s*-->")
+WORD = re.compile(r"<!--\s*word\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?\s*-->")
 RUN = re.compile(r"<!--\s*run\s+of\s+(\S+\.csv)\s*-->")
 ROWS = re.compile(r"(<!-- rows (.+?) of (\S+\.csv)(?: where (.+?))? -->\n)(.*?)(<!-- end of rows -->)", re.S)
 NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -161,17 +166,27 @@ def written_like(text, value):
     return f"{value:,.{decimals}f}" if "," in text else f"{value:.{decimals}f}"
 
 
-def with_runs(line, number, results, wrong):
-    """The line with the values of its RUN markers filled in."""
+def word_of(column, table, where, results):
+    """What the one row chosen has in a column."""
+    rows = chosen(table, where, results)
+    if column not in rows[0]:
+        raise Stale(f"{table} has no column {column}")
+    if len(rows) > 1:
+        raise Stale(f"{len(rows)} such rows in {table}, not one")
+    return rows[0][column]
+
+
+def with_words(line, number, results, wrong, marker_of, what_is):
+    """The line with the words of markers of one kind filled in: `what_is` gives that of a match."""
     done, at = "", 0
-    for marker in RUN.finditer(line):
+    for marker in marker_of.finditer(line):
         before = line[at : marker.start()]
         at = marker.end()
-        word = re.search(r"(quick|full)$", before)
+        word = re.search(r"[\w.-]+$", before)
         try:
             if not word:
-                raise Stale("neither quick nor full before the marker")
-            now = run_of(results / marker.group(1))
+                raise Stale("no word before the marker")
+            now = what_is(marker)
             if now != word.group():
                 wrong.append(f"{number}: {word.group()} is stale: {now} by {marker.group()}")
                 before = before[: word.start()] + now
@@ -197,7 +212,8 @@ def checked(text, results):
         return marker.group(1) + table + marker.group(6)
 
     for number, line in enumerate(ROWS.sub(made, text).split("\n"), 1):
-        line = with_runs(line, number, results, wrong)
+        line = with_words(line, number, results, wrong, RUN, lambda marker: run_of(results / marker.group(1)))
+        line = with_words(line, number, results, wrong, WORD, lambda marker: word_of(*marker.groups(), results))
         wrong += [f"{number}: {what}" for what in false_sentences(line, results)]
         done, at = "", 0
         for marker in MARKER.finditer(line):
@@ -215,7 +231,7 @@ def checked(text, results):
                 wrong.append(f"{number}: {what}: {marker.group()}")
             done += before + marker.group()
         lines.append(done + line[at:])
-        rest = LESS.sub("", ALL.sub("", RUN.sub("", MARKER.sub("", line))))
+        rest = LESS.sub("", ALL.sub("", WORD.sub("", RUN.sub("", MARKER.sub("", line)))))
         if "<!-- rows" not in line and ".csv" in rest.partition("<!--")[2]:
             wrong.append(f"{number}: a marker that is not understood: {line.strip()}")
     return "\n".join(lines), wrong

@@ -375,7 +375,7 @@ def amount(value):
 
 
 def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
-    """Percentage of steps that reached a stop or were taken by the fallback, by mass and stiffness."""
+    """Stops and steps by the fallback per hundred steps, by mass and stiffness; a step may be both."""
     counted, steps = defaultdict(float), defaultdict(float)
     for row in rows:
         place = float(row["mass"]), float(row["stiffness_factor"])
@@ -438,11 +438,12 @@ def stability(table, picture, extremes=None):
         )
         axes.set_title(f"{name}: {total}", fontsize=10)
     finish(layers[0], held, len(names), image, "share that holds (numbers: per cent)")
-    counters = panels_of(layers[1], "steps that met the end of the rod's range or were done by the fallback", lines)
+    counters = panels_of(layers[1], "stops at the end of the rod's range, and steps taken by the fallback rule", lines)
     for axes, name in zip(counters, names):
         of_it = [row for row in rows if row["integrator"] == name]
         image = layer_of_counters(axes, of_it, stiffnesses, masses, mass_names)
-    finish(layers[1], counters, len(names), image, "share of steps (numbers: per cent)")
+    label = "fraction of the steps (numbers: per hundred;\na step may be both; darkest: 10 or more)"
+    finish(layers[1], counters, len(names), image, label)
     for panels in (held, counters):
         for axes in panels[::columns]:
             axes.set_ylabel("mass [kg]")

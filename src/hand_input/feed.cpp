@@ -137,8 +137,8 @@ void Feed::push_external_wrench(const motion::ExternalWrench& sample, std::size_
   if (record_) record_({Kind::external_wrench, hand, sample.t, RigidTransform::Identity(), sample, committed()});
 }
 
-void Feed::note(Accepted::Kind kind, std::size_t hand, double t, const RigidTransform& X_WH) const {
-  if (record_) record_({kind, hand, t, X_WH, {}, committed()});
+void Feed::note(Accepted::Kind kind, std::size_t hand, double t, const RigidTransform& X_WS) const {
+  if (record_) record_({kind, hand, t, X_WS, {}, committed()});
 }
 
 double Feed::committed() const { return began_ ? simulation_.time() : kNever; }

@@ -64,8 +64,8 @@ const std::vector<Entry>& entries() {
       number("smoothing.beta_angle", "Hz/(rad/s)", between(0.0, 1e6),
              "increase of the cut-off of the rotation with angular speed", &T::beta_angle),
       number("dead_band.distance", "m", between(0.0, 0.1),
-             "a hand that stays this close for 0.3 s rests, bit-identically, until it is farther away, so that what it "
-             "holds can sleep; above the tracker's noise; 0: off",
+             "a hand that stays within this distance of one pose for 0.3 s counts as at rest until it leaves it, so "
+             "that the object it holds can sleep; choose more than the tracker's noise; 0: off",
              &T::dead_band_distance),
       number("dead_band.angle", "rad", between(0.0, 0.5), "the same for its rotation; 0: off", &T::dead_band_angle),
       {{"on_loss", "–", "one of " + validation::join(names_of(OnLoss())), validation::name_of(T().on_loss),

@@ -69,7 +69,7 @@ void Replayer::apply(const Accepted& accepted) {
   if (const auto press = Accepted::press_of(accepted.kind)) {
     simulation.push_edge(accepted.t, *press, accepted.hand);
   } else if (accepted.kind == Accepted::Kind::pose) {
-    simulation.push_stylus({accepted.t, accepted.X_WH}, accepted.hand);
+    simulation.push_stylus({accepted.t, accepted.X_WS}, accepted.hand);
   } else if (accepted.kind == Accepted::Kind::lost) {
     simulation.release(accepted.hand);
   } else if (accepted.kind == Accepted::Kind::external_wrench) {

@@ -204,7 +204,7 @@ std::vector<Field> grasp_fields(S& s) {
       number("dropout_after", "s", validation::positive_or_infinite(),
              "if the gap between two samples is longer, the handle is at rest until the next sample", s.dropout_after),
       number("external_wrench_timeout", "s", between(1e-3, 10.0),
-             "how long a machine's wrench acts if no next one comes; then it is zero", s.wrench_timeout),
+             "how long an external wrench acts if no newer one arrives; it is zero after that", s.wrench_timeout),
       integer("bisection_levels", 0, 30,
               "number of bisections that find the end of a step in which contact begins (section 5 of the paper); 0: "
               "the time of impact is computed instead",

@@ -2,6 +2,7 @@
 """Every number in a document that has a marker equals the value in its table (benchmark/report/document_numbers.py)."""
 import importlib.util
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -31,9 +32,13 @@ class Documents(unittest.TestCase):
 
     def test_tables_of_one_run_are_of_one_commit(self):
         tables = sorted((ROOT / numbers.RESULTS).glob("*.csv"))
-        commits = {numbers.commit_of(table) for table in tables}
-        self.assertEqual(len(commits), 1, commits)
-        self.assertNotIn(None, commits)
+        self.assertEqual(len({numbers.commit_of(table) for table in tables}), 1)
+
+    def test_every_table_says_how_it_was_made(self):
+        for table in sorted((ROOT / numbers.RESULTS).rglob("*.csv")):
+            header = [line for line in table.read_text(encoding="utf-8").splitlines() if line.startswith("# ")]
+            for what in ("machine", "date", "command", "commit"):
+                self.assertTrue(any(re.match(rf"# {what}: \S", line) for line in header), f"{table.name}: no {what}")
 
 
 class Markers(unittest.TestCase):
@@ -100,11 +105,20 @@ class Markers(unittest.TestCase):
             self.assertEqual(self.check(text % word), (text % word, []))
             mended, wrong = self.check(text % other)
             self.assertEqual((mended, len(wrong)), (text % word, 1))
-        for bad in ("of the slow<!-- run of t.csv --> run", "of the full<!-- run of none.csv --> run"):
+        for bad in ("of the <!-- run of t.csv --> run", "of the full<!-- run of none.csv --> run"):
             same, wrong = self.check(bad)
             self.assertEqual((same, len(wrong)), (bad, 1))
         (self.results / "t.csv").write_text(TABLE, encoding="utf-8")
         self.assertEqual(len(self.check("full<!-- run of t.csv -->")[1]), 1)
+
+    def test_a_word_is_that_of_the_one_row_chosen(self):
+        text = "a %s<!-- word kind of t.csv where n=3, depth [um]=9.6 --> of 3<!-- count kind of t.csv -->"
+        self.assertEqual(self.check(text % "stack"), (text % "stack", []))
+        mended, wrong = self.check(text % "wall")
+        self.assertEqual((mended, len(wrong)), (text % "stack", 1))
+        for bad in ("a stack<!-- word kind of t.csv where n=3 -->", "a stack<!-- word colour of t.csv where n=12345.6 -->"):
+            same, wrong = self.check(bad)
+            self.assertEqual((same, len(wrong)), (bad, 1))
 
     def test_the_header_names_the_commit(self):
         table = self.results / "t.csv"

@@ -34,8 +34,8 @@ class Coupling {
   /// Stiffness and damping at the object at its present pose: 6 × 6 [linear; angular], symmetric, ≥ 0.
   struct Springs {
     Matrix6d stiffness = Matrix6d::Zero(), damping = Matrix6d::Zero();
-    double energy = 0.0;      ///< [J]
-    double dissipated = 0.0;  ///< [W]
+    double energy = 0.0;      ///< elastic energy of the springs [J]
+    double dissipated = 0.0;  ///< power that the dampers take up [W]
   };
   /// Identifies the equation of motion that includes this coupling: the time of the grasp [s], and how often the law
   /// has changed since.
@@ -89,7 +89,7 @@ class Couplings {
   /// Attaches these couplings in place of the present ones. Returns whether they, or their laws, differ from those
   /// before.
   bool attach(const std::vector<Attached>& couplings);
-  /// Detaches all but the first `kept` until they are attached again: the equation of motion still includes them.
+  /// Detaches all but the first `kept` until attach(). Their keys stay: attaching the same ones again is no change.
   void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }
   bool empty() const { return attached_.empty(); }
 

@@ -18,7 +18,7 @@ namespace spring_workbench::hand_input {
 /// the same time, give a bit-identical future.
 struct Accepted {
   enum class Kind {
-    pose,         ///< pose of the handle at time `t`, after filtering
+    pose,         ///< pose of the stylus at time `t`, after filtering
     button_down,  ///< the grasp button went down at time `t`
     button_up,
     next_tool,  ///< the second button went down at time `t`
@@ -35,7 +35,7 @@ struct Accepted {
   Kind kind = Kind::rest;
   std::size_t hand = 0;
   double t = 0.0;                                               ///< [s]
-  RigidTransform X_WH = RigidTransform::Identity();             ///< for `pose`
+  RigidTransform X_WS = RigidTransform::Identity();             ///< pose of the stylus in world, for `pose`
   motion::ExternalWrench wrench;                                ///< for `external_wrench`, measured at time `t`
   double committed = -std::numeric_limits<double>::infinity();  ///< simulated time at which the input was given [s];
                                                                 ///< −infinity before the first advance
@@ -59,8 +59,8 @@ class Feed {
                          std::size_t hand = 0);
   /// Reports the arrival of a sample that is not used, so that the hand does not count as silent.
   void report_arrival(const LocalTime& arrival, std::size_t hand);
-  /// Adds a pose of the handle in the world, from a motion whose samples need no clock. It is pushed bit-identically if
-  /// smoothing is off and the hand was not lost.
+  /// Adds a pose of the stylus in the world, from a motion that needs no clock. The pose is passed on
+  /// bit-identically if smoothing and dead band are off and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// Adds an edge of a button at time `t` [s]; see Simulation.
   void push_edge(double t, motion::ButtonEdge press, std::size_t hand = 0);
@@ -108,7 +108,7 @@ class Feed {
               std::size_t hand);
 
   void note(Accepted::Kind kind, std::size_t hand, double t,
-            const RigidTransform& X_WH = RigidTransform::Identity()) const;
+            const RigidTransform& X_WS = RigidTransform::Identity()) const;
 
   simulation::Simulation& simulation_;
   std::vector<Hand> hands_;

@@ -18,7 +18,7 @@ struct StepCounts {
   int steps_among_movable = 0;  ///< steps that involved other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
   int steps_blocked = 0;   ///< steps in which no admissible motion of a body was found, so it did not move
-  int steps_unsolved = 0;  ///< steps among movable objects that were accepted although a contact violated its law
+  int steps_unsolved = 0;  ///< substeps among movable objects that were accepted although a contact violated its law
   int steps_rejected = 0;  ///< steps whose result was not finite or not bounded
   double time_lost = 0.0;  ///< time during which a body did not follow its equation [s]
 

@@ -72,7 +72,7 @@ struct AdvanceReport {
   int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
-  int steps_unsolved = 0;     ///< steps among movable objects: a contact missed its law by 1 µm, or may be 0.1 mm deep
+  int steps_unsolved = 0;     ///< substeps in which a contact among movable objects broke its law by over 1 µm
   double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
   int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
   int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time

@@ -27,10 +27,10 @@ inline std::vector<std::string> names_of(Calibration) { return {"none", "object"
 
 /// Deformation of a fork calibrated to an object under the weight of that object (paper, sections 3.1 and 3.2).
 struct ObjectGoal {
-  double sag = 0.1;  ///< key `calibration.object.sag`: static extension when hanging, and deflection when level, as
-                     ///< fractions of L
-  double twist =
-      0.35;  ///< key `calibration.object.twist`: static twist at the lever arm of the calibrated length [rad]
+  double sag = 0.1;     ///< key `calibration.object.sag`: static extension when hanging, and deflection when level, as
+                        ///< fractions of L
+  double twist = 0.35;  ///< key `calibration.object.twist`: static twist [rad] of an object as dense as water, held at
+                        ///< a lever of its radius of gyration
 };
 
 /// Deformation of the one fork for a scene under the weight of the heaviest object (paper, section 4).

@@ -76,7 +76,7 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   };
   if (others(input) > others(last.input)) {
     status.raise(DiagnosticStatus::ERROR,
-                 "two nodes send the stylus: " + input.sender + " is followed, " + input.other_sender + " is ignored");
+                 "two nodes publish the stylus: using " + input.sender + ", ignoring " + input.other_sender);
   }
   if (hand.tracker_moves > last.hand.tracker_moves)
     status.raise(DiagnosticStatus::WARN, "the tracker's frame was moved: the hand is re-acquired");

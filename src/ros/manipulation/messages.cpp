@@ -120,7 +120,7 @@ Accepted to_message(const hand_input::Accepted& accepted) {
   message.stylus = static_cast<uint8_t>(accepted.hand + 1);
   message.time = accepted.t;
   message.committed = accepted.committed;
-  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.handle.data()) = accepted.X_WH.affine();
+  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.stylus_pose.data()) = accepted.X_WS.affine();
   if (accepted.kind == hand_input::Accepted::Kind::external_wrench) {
     const Vector6d wrench = to_vector(accepted.wrench.wrench);
     message.wrench.assign(wrench.data(), wrench.data() + wrench.size());

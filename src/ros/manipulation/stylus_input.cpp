@@ -110,7 +110,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
     ROS_WARN("this host's clock was set, or the host was suspended: %.3g s are treated as an offset", host_set);
   if (wall_poses_.clock().steps() == steps) return;
   ++statistics_.clock_steps;
-  ROS_WARN_STREAM("the clock of " << sender_.name() << " was set: its stamps are followed from the new time");
+  ROS_WARN_STREAM("the clock of " << sender_.name() << " jumped: its stamps are used with a new offset from now on");
 }
 
 void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {

@@ -97,7 +97,7 @@ void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request
   std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s; a step takes %.2g s now%s",
                 validation::name_of(now.integrator).c_str(), now.step, now.tolerance,
                 now.tolerance > 0.0 ? "" : " (fixed steps)", step.takes,
-                step.takes > step.lasts ? ", so simulated time will be slower than the hands'" : "");
+                step.takes > step.lasts ? ": too slow, so samples will be dropped" : "");
   response.message = text;
 }
 

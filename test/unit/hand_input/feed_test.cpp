@@ -91,7 +91,7 @@ TEST(Feed, OnlyOneThatPredictsGivesACopySamples) {
   Feed without(simulations[0], InputSettings()), with(simulations[1], InputSettings(), Feed::Prediction::on);
   motion::PosePredictor predictor;
   with.record([&](const Accepted& accepted) {
-    if (accepted.kind == Accepted::Kind::pose) predictor.push({accepted.t, accepted.X_WH});
+    if (accepted.kind == Accepted::Kind::pose) predictor.push({accepted.t, accepted.X_WS});
   });
   for (const motion::PoseSample& sample : shaking_hand()) {
     if (sample.t > 1.99) break;  // before it is lost

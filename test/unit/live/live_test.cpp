@@ -490,7 +490,7 @@ TEST(Journal, AMissingEntryAndAnotherStateAreRefused) {
   EXPECT_THROW(play(short_of_one), validation::InputError);
   for (Entry& entry : journal) {
     auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
-    if (accepted != nullptr && entry.index == 20) accepted->X_WH.translation().x() += 1e-12;
+    if (accepted != nullptr && entry.index == 20) accepted->X_WS.translation().x() += 1e-12;
   }
   EXPECT_THROW(play(journal), validation::InputError);
 }

@@ -58,7 +58,7 @@ live::Entry to_entry(const Accepted& message) {
   accepted.hand = message.stylus - 1u;
   accepted.t = message.time;
   accepted.committed = message.committed;
-  accepted.X_WH.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.handle.data());
+  accepted.X_WS.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.stylus_pose.data());
   if (message.kind == Accepted::EXTERNAL_WRENCH) {
     validation::check_number("~accepted", "numbers of wrench", static_cast<double>(message.wrench.size()),
                              validation::between(6, 6));
