@@ -51,7 +51,7 @@ E value_of(const std::string& word, const std::string& key) {
     if (names_of(E{})[i] == word) return static_cast<E>(i);
     known += (i == 0 ? "" : ", ") + names_of(E{})[i];
   }
-  throw validation::InputError(key + ": must be one of " + known + ", got " + word);
+  validation::refuse("", key, word, "one of " + known);
 }
 
 void bind_states(pybind11::module_& module);
