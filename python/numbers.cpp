@@ -23,8 +23,10 @@ Array to_array(const RigidTransform& X) {
 
 RigidTransform to_pose(const Array& matrix, const std::string& what) {
   const auto refuse = [&](const std::string& given) {
-    validation::refuse(
-        "", what, "a 4 x 4 array of finite numbers: a rotation, a position [m] and a last row 0 0 0 1, got " + given);
+    throw validation::InputError(what +
+                                 ": expected a 4 x 4 array of finite numbers: a rotation, a position [m] and a last "
+                                 "row 0 0 0 1, got " +
+                                 given);
   };
   if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4) refuse(shape_of(matrix));
   Eigen::Matrix4d m;
@@ -60,7 +62,7 @@ Array to_array(const Wrench& F) {
 
 Wrench to_wrench(const Array& vector, const std::string& what) {
   if (vector.ndim() != 1 || vector.shape(0) != 6) {
-    validation::refuse("", what, "six numbers: force [N] and moment [N m], got " + shape_of(vector));
+    throw validation::InputError(what + ": expected six numbers: force [N] and moment [N m], got " + shape_of(vector));
   }
   return {Vector3d(vector.at(0), vector.at(1), vector.at(2)), Vector3d(vector.at(3), vector.at(4), vector.at(5))};
 }
@@ -86,8 +88,7 @@ YAML::Node to_yaml(const py::handle& value, const std::string& key) {
     for (const py::handle& entry : value) list.push_back(to_yaml(entry, key));
     return list;
   }
-  validation::refuse("", key, py::repr(value).cast<std::string>(),
-                     "a number, a boolean, a string, a list or a dictionary");
+  refuse(key, py::repr(value).cast<std::string>(), "a number, a boolean, a string, a list or a dictionary");
 }
 
 }  // namespace spring_workbench::python
