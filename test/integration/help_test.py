@@ -13,12 +13,11 @@ DEADLINE = 60.0  # [s]
 class Help(unittest.TestCase):
     def test_each_program_prints_its_help_and_ends(self):
         self.assertGreater(len(PROGRAMS), 2)
-        nowhere = dict(os.environ, ROS_MASTER_URI="http://localhost:9")
+        how = {"capture_output": True, "text": True, "timeout": DEADLINE}
+        how["env"] = dict(os.environ, ROS_MASTER_URI="http://localhost:9")  # where nothing listens
         for program in PROGRAMS:
             with self.subTest(program=program):
-                done = subprocess.run(
-                    [program, "--help"], capture_output=True, text=True, timeout=DEADLINE, env=nowhere
-                )
+                done = subprocess.run([program, "--help"], **how)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertIn(os.path.basename(program), done.stdout)
 
