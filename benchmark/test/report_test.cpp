@@ -197,7 +197,7 @@ TEST(Report, ARecordingHasALineForEachIntegratorAndStepWhoseErrorFallsWithIt) {
 TEST(Report, ARecordingThatReplayRefusesIsReportedWithItsMessage) {
   const Outcome outcome = report("--scene /nowhere.urdf --motion /nowhere.tum --out .");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.output.find("/nowhere.tum: cannot be read"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("/nowhere.tum: expected a readable motion file"), std::string::npos) << outcome.output;
 }
 
 }  // namespace
