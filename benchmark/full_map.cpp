@@ -36,7 +36,7 @@ std::vector<NumberedCell> read_cells(const std::string& path) {
     const std::string line = text.substr(begin, end - begin), number = line.substr(0, line.find('\t'));
     if (number.empty() || number.size() > 9 || number.find_first_not_of("0123456789") != std::string::npos ||
         number.size() == line.size()) {
-      validation::refuse(where, "number", number, "that of a cell, with its row behind it");
+      validation::refuse(where, "number", number, "the number of a cell, with its row behind it");
     }
     cells.push_back({std::stoul(number), row_from_text<StabilityRun>(line.substr(number.size() + 1), where)});
   }

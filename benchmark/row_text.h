@@ -73,7 +73,7 @@ class FieldReader {
     if (text.empty() || *rest != '\0') wrong(text);
   }
   [[noreturn]] void wrong(const std::string& value) const {
-    validation::refuse(where_, "row", value, "one that this program writes");
+    validation::refuse(where_, "row", value, "a row that this program writes");
   }
 
   std::string line_, where_;

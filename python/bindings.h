@@ -38,6 +38,11 @@ Array to_arrays(std::size_t count, PoseOf&& pose_of) {
 /// `key` and the keys within for other types.
 YAML::Node to_yaml(const pybind11::handle& value, const std::string& key);
 
+/// Throws InputError("<key>: invalid value '<value>': expected <rule>").
+[[noreturn]] inline void refuse(const std::string& key, const std::string& value, const std::string& rule) {
+  throw validation::InputError(key + ": invalid value '" + value + "': expected " + rule);
+}
+
 /// The name of an enum value.
 template <typename E>
 std::string word(E value) {
@@ -51,7 +56,7 @@ E value_of(const std::string& word, const std::string& key) {
     if (names_of(E{})[i] == word) return static_cast<E>(i);
     known += (i == 0 ? "" : ", ") + names_of(E{})[i];
   }
-  throw validation::InputError(key + ": must be one of " + known + ", got " + word);
+  refuse(key, word, "one of " + known);
 }
 
 void bind_states(pybind11::module_& module);

@@ -12,15 +12,15 @@ position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputErro
 length or is not finite, or if the quaternion is zero.)";
 
 RigidTransform pose(const std::vector<double>& position, const std::vector<double>& quaternion) {
-  const auto refuse = [](const std::string& what, const char* rule) {
-    throw validation::InputError(std::string("pose: ") + rule + ", got " + what);
+  const auto check = [](bool valid, const std::string& rule) {
+    if (!valid) throw validation::InputError("pose: " + rule);
   };
-  if (position.size() != 3) refuse(std::to_string(position.size()), "position: must be 3 numbers [m]");
-  if (quaternion.size() != 4) refuse(std::to_string(quaternion.size()), "quaternion: must be 4 numbers, x y z w");
+  check(position.size() == 3, "position: expected 3 numbers [m], got " + std::to_string(position.size()));
+  check(quaternion.size() == 4, "quaternion: expected 4 numbers, x y z w, got " + std::to_string(quaternion.size()));
   const Quaterniond q(quaternion[3], quaternion[0], quaternion[1], quaternion[2]);
   const Vector3d p(position[0], position[1], position[2]);
-  if (!p.allFinite() || !q.coeffs().allFinite()) refuse("NaN or infinity", "must be finite");
-  if (!(q.norm() > 0.0)) refuse("0 0 0 0", "quaternion: must be nonzero");
+  check(p.allFinite() && q.coeffs().allFinite(), "expected finite numbers");
+  check(q.norm() > 0.0, "quaternion: invalid value '0 0 0 0': expected a nonzero quaternion");
   return make_transform(q, p);
 }
 

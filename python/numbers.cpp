@@ -22,11 +22,11 @@ Array to_array(const RigidTransform& X) {
 }
 
 RigidTransform to_pose(const Array& matrix, const std::string& what) {
-  const auto refuse = [&](const std::string& value) {
+  const auto refuse = [&](const std::string& given) {
     throw validation::InputError(what +
-                                 ": must be a 4 x 4 array of finite numbers: a rotation, a position [m] and a "
-                                 "last row 0 0 0 1, got " +
-                                 value);
+                                 ": expected a 4 x 4 array of finite numbers: a rotation, a position [m] and a last "
+                                 "row 0 0 0 1, got " +
+                                 given);
   };
   if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4) refuse(shape_of(matrix));
   Eigen::Matrix4d m;
@@ -62,7 +62,7 @@ Array to_array(const Wrench& F) {
 
 Wrench to_wrench(const Array& vector, const std::string& what) {
   if (vector.ndim() != 1 || vector.shape(0) != 6) {
-    throw validation::InputError(what + ": must be six numbers: force [N] and moment [N m], got " + shape_of(vector));
+    throw validation::InputError(what + ": expected six numbers: force [N] and moment [N m], got " + shape_of(vector));
   }
   return {Vector3d(vector.at(0), vector.at(1), vector.at(2)), Vector3d(vector.at(3), vector.at(4), vector.at(5))};
 }
@@ -88,8 +88,7 @@ YAML::Node to_yaml(const py::handle& value, const std::string& key) {
     for (const py::handle& entry : value) list.push_back(to_yaml(entry, key));
     return list;
   }
-  throw validation::InputError(key + ": must be a number, a boolean, a string, a list or a dictionary, got " +
-                               py::repr(value).cast<std::string>());
+  refuse(key, py::repr(value).cast<std::string>(), "a number, a boolean, a string, a list or a dictionary");
 }
 
 }  // namespace spring_workbench::python

@@ -21,8 +21,7 @@ rod::PerDofChange<T> per_dof(const py::object& values, const std::string& key) {
     return {each[0], each[1], each[2]};
   } catch (const py::cast_error&) {
     const std::string kind = std::is_same_v<T, bool> ? "booleans" : "numbers";
-    throw validation::InputError(key + ": must be three " + kind + " (or None), of stretch, bend and torsion, got " +
-                                 py::repr(values).cast<std::string>());
+    refuse(key, py::repr(values).cast<std::string>(), "three " + kind + " (or None), of stretch, bend and torsion");
   }
 }
 

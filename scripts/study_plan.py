@@ -46,7 +46,9 @@ class StudyError(ValueError):
 
 
 def refuse(where, field, allowed, value):
-    raise StudyError(f"{where}: {field}: must be {allowed}, got {value}")
+    if value is None:
+        raise StudyError(f"{where}: missing required key {field}: {allowed}")
+    raise StudyError(f"{where}: {field}: invalid value '{value}': expected {allowed}")
 
 
 def number(where, field, value, low, high, kind=(int, float)):
@@ -62,7 +64,7 @@ def load_yaml(path):
     except (OSError, yaml.YAMLError) as error:
         raise StudyError(f"{path}: cannot be read as YAML: {' '.join(str(error).split())}")
     if not isinstance(content, dict):
-        raise StudyError(f"{path}: must be a YAML mapping, got {content}")
+        raise StudyError(f"{path}: expected a YAML mapping, got {content}")
     return content
 
 
@@ -141,14 +143,14 @@ class Records:
         with open(path, encoding="utf-8", newline="") as file:
             reader = csv.DictReader(file)
             if reader.fieldnames != list(columns):
-                raise StudyError(f"{path}:1: must be the columns {','.join(columns)}; give another --out")
+                raise StudyError(f"{path}:1: expected the columns {','.join(columns)}; give another --out")
             self.rows = list(reader)
         for line, row in enumerate(self.rows, 2):
             want = [str(value) for key in self.expected[line - 2 : line - 1] for value in key.values()]
             if not want or None in row or None in row.values() or list(row.values())[: len(want)] != want:
                 raise StudyError(
-                    f"{path}:{line}: must begin with {','.join(want) or 'nothing'}, got "
-                    f"{','.join(map(str, row.values()))}; give another --out if the plan has changed"
+                    f"{path}:{line}: invalid value '{','.join(map(str, row.values()))}': expected a line that begins "
+                    f"with {','.join(want) or 'nothing'}; give another --out if the plan has changed"
                 )
 
     @property
@@ -203,7 +205,7 @@ def load_tlx(path, conditions, weighted):
         ratings = dict(content[label])
         weights = ratings.pop("weights", None)
         if weighted and weights is None:
-            refuse(path, label + ".weights", "counts of the fifteen pairwise choices", "none")
+            refuse(path, label + ".weights", "counts of the fifteen pairwise choices", None)
         rows[label] = tlx(f"{path}: {label}", ratings, weights)
     return rows
 
@@ -229,7 +231,7 @@ def ask_tlx(weighted, say=print, ask_line=input):
 
     def choice(answer):
         if answer not in ("1", "2"):
-            refuse("answer", "choice", "1 or 2", answer or "nothing")
+            refuse("answer", "choice", "1 or 2", answer)
         return int(answer) - 1
 
     ratings = {scale: ask(text + ": ", rating, say, ask_line) for scale, text in SCALES.items()}

@@ -184,7 +184,7 @@ ContactTrial shown_trial(const std::string& name) {
       {"peg", [] { return peg_in_hole(true, scene::ContactMode::dynamic); }},
       {"wedge", [] { return driven_wedge(0.3); }}};
   const auto found = all.find(name);
-  if (found == all.end()) validation::refuse(where, "trial", name, "one that can be shown");
+  if (found == all.end()) validation::refuse(where, "trial", name, "a trial that can be shown");
   return found->second();
 }
 

@@ -46,7 +46,7 @@ Options parse(int argc, char** argv) {
                                    "unknown option; known options are --out DIR, --full, --cells N");
     }
   }
-  if (options.out.empty()) validation::refuse(kWhere, "--out", "", "a folder to write to");
+  if (options.out.empty()) validation::refuse_missing(kWhere, "--out", "folder to write to");
   return options;
 }
 

@@ -23,10 +23,14 @@ struct ReportOptions {
   bool of_recording() const { return !scene.empty(); }
 };
 
-/// Throws InputError for anything but `[--quick] [--out DIR]`, `[--quick] --shard I/N [--queue DIR]`,
-/// `[--out DIR] --merge PART...` or `[--quick] [--out DIR] --scene SCENE (--bag FILE | --motion FILE...)
-/// [--settings FILE]`, each but `--merge` also with `--commit NAME`.
-ReportOptions parse_report_options(int argc, char** argv);
+/// Returns nothing for `--help`. Throws InputError for anything but `[--quick] [--out DIR]`,
+/// `[--quick] --shard I/N [--queue DIR]`, `[--out DIR] --merge PART...` or
+/// `[--quick] [--out DIR] --scene SCENE (--bag FILE | --motion FILE...) [--settings FILE]`; each but `--merge` may have
+/// `--commit NAME`.
+std::optional<ReportOptions> parse_report_options(int argc, char** argv);
+
+/// The text that `--help` prints.
+std::string report_help();
 
 /// Creates the folder if it does not exist. Throws InputError if it cannot be created or written to.
 void make_folder(const std::string& folder);

@@ -39,13 +39,13 @@ void each_field(UnitHead& h, Fields& fields) {
 class PartFile {
  public:
   explicit PartFile(const std::string& path) : path_(path), file_(path) {
-    if (!file_) throw validation::InputError(path + ": cannot be read; give a file that report --shard wrote");
+    if (!file_) validation::refuse("", path, "a readable file that report --shard wrote");
   }
 
   std::string line() {
     std::string text;
     if (!std::getline(file_, text) || file_.eof())
-      validation::refuse(where(), "end of the file", "it earlier; the shard was not finished", "after all rows");
+      validation::refuse(where(), "end of the file", "all rows before it; the shard was not finished");
     ++line_;
     return text;
   }
@@ -120,9 +120,10 @@ ReportPart read_parts(const std::vector<std::string>& paths) {
       all.facts = part.facts;
     }
     if (part.shard.count != all.shard.count || part.quick != all.quick || part.facts.size() != all.facts.size()) {
-      validation::refuse(path, "shard", name, "of the same report as the others");
+      validation::refuse(path, "shard", name, "one of the same report as the others");
     }
-    if (!seen.insert(part.shard.index).second) validation::refuse(path, "shard", name + " again", "given once");
+    if (!seen.insert(part.shard.index).second)
+      throw validation::InputError(validation::prefix(path, "shard " + name) + "given twice");
     all.time.begun = seen.size() == 1 ? part.time.begun : std::min(all.time.begun, part.time.begun);
     all.time.ended = std::max(all.time.ended, part.time.ended);
     all.time.processor += part.time.processor;
@@ -132,9 +133,9 @@ ReportPart read_parts(const std::vector<std::string>& paths) {
   }
   for (std::size_t i = 1; i <= all.shard.count; ++i) {
     if (seen.count(i) == 0) {
-      validation::refuse(
-          "command line", "--merge", std::to_string(seen.size()) + " shards",
-          "all " + std::to_string(all.shard.count) + " of them; shard " + std::to_string(i) + " is missing");
+      validation::refuse("command line", "--merge",
+                         "all " + std::to_string(all.shard.count) + " shards, got " + std::to_string(seen.size()) +
+                             ", without shard " + std::to_string(i));
     }
   }
   return all;

@@ -140,7 +140,7 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   progress.finish();
   if (merging && !units.kept().empty()) {
     validation::refuse("shards", "unit", units.kept().begin()->first,
-                       "one that this report has: same build, same peers, same recordings");
+                       "a unit of this report: same build, same peers, same recordings");
   }
   if (!merging) {
     part.time = run_time_now();

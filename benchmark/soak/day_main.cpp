@@ -12,8 +12,7 @@ int main(int argc, char** argv) {
   constexpr double memory_growth = 1.01;
   try {
     if (argc < 4) {
-      validation::refuse("command line", "arguments", std::to_string(argc - 1) + " of them",
-                         "HOURS SCENE.urdf MOTION [MOTION ...]");
+      validation::refuse("command line", "arguments", "HOURS SCENE.urdf MOTION [MOTION ...]");
     }
     benchmark::DayOptions options;
     options.hours =

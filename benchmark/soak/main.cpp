@@ -20,8 +20,7 @@ int main(int argc, char** argv) {
   using benchmark::judge;
   try {
     benchmark::SoakOptions options;
-    if (argc < 2 || argc > 4)
-      validation::refuse("command line", "arguments", std::to_string(argc - 1) + " of them", kUse);
+    if (argc < 2 || argc > 4) validation::refuse("command line", "arguments", kUse);
     options.scene = argv[1];
     if (argc > 2)
       options.steps = config::read_integer(YAML::Node(std::string(argv[2])), "command line", "STEPS", 1, 2000000000);

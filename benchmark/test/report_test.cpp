@@ -76,27 +76,36 @@ Outcome report(const std::string& arguments) {
   return outcome;
 }
 
+TEST(Report, HelpNamesEveryOption) {
+  const Outcome outcome = report("--help");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  for (const char* option : {"--quick", "--out", "--commit", "--shard", "--queue", "--merge", "--scene", "--bag",
+                             "--motion", "--settings"}) {
+    EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
+  }
+}
+
 TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
-      {"--fast", {"--fast", "--quick"}},
-      {"--quick now", {"now", "--quick"}},
-      {"--out", {"--out", "missing", "folder"}},
-      {"--shard", {"--shard", "missing", "I/N"}},
-      {"--shard 0/3", {"--shard", "0/3", "I/N"}},
+      {"--fast", {"--fast: unknown option", "--help"}},
+      {"--quick now", {"now: unknown option", "--help"}},
+      {"--out", {"--out: expected a folder"}},
+      {"--shard", {"--shard: expected I/N"}},
+      {"--shard 0/3", {"--shard: invalid value '0/3': expected I/N"}},
       {"--shard 4/3", {"--shard", "4/3", "I/N"}},
       {"--shard 1/2/3", {"--shard", "1/2/3", "I/N"}},
-      {"--shard 1/2 --out /tmp", {"--shard, --out", "both", "one without the other"}},
-      {"--shard 1/2 --queue", {"--queue", "missing", "folder"}},
-      {"--queue .", {"--queue", ".", "together with --shard"}},
-      {"--commit", {"--commit", "missing", "name"}},
-      {"--merge", {"--merge", "missing", "files"}},
+      {"--shard 1/2 --out /tmp", {"--shard, --out", "cannot be given together"}},
+      {"--shard 1/2 --queue", {"--queue: expected a folder"}},
+      {"--queue .", {"--queue: can only be given together with --shard"}},
+      {"--commit", {"--commit: expected the name"}},
+      {"--merge", {"--merge: expected the files"}},
       {"--quick --merge /dev/null", {"--merge", "--quick", "the files"}},
-      {"--out ''", {"--out", "missing", "folder"}},
-      {"--bag", {"--bag", "missing", "path"}},
-      {"--bag x.bag", {"--scene, --bag, --motion", "one without the other", "a scene together"}},
-      {"--scene s.urdf", {"--scene, --bag, --motion", "one without the other", "a scene together"}},
-      {"--settings s.yaml", {"--settings", "s.yaml", "--scene"}},
-      {"--scene s.urdf --bag x.bag --shard 1/2", {"--scene", "--shard", "both"}},
+      {"--out ''", {"--out: expected a folder"}},
+      {"--bag", {"--bag: expected a path"}},
+      {"--bag x.bag", {"--scene, --bag, --motion: expected a scene together"}},
+      {"--scene s.urdf", {"--scene, --bag, --motion: expected a scene together"}},
+      {"--settings s.yaml", {"--settings: can only be given together with --scene"}},
+      {"--scene s.urdf --bag x.bag --shard 1/2", {"--scene: cannot be given together with --shard"}},
       {"--out /dev/null/x", {"--out", "/dev/null/x", "folder"}},
   };
   for (const auto& [arguments, words] : cases) {
@@ -188,7 +197,7 @@ TEST(Report, ARecordingHasALineForEachIntegratorAndStepWhoseErrorFallsWithIt) {
 TEST(Report, ARecordingThatReplayRefusesIsReportedWithItsMessage) {
   const Outcome outcome = report("--scene /nowhere.urdf --motion /nowhere.tum --out .");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.output.find("/nowhere.tum: cannot be read"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("/nowhere.tum: expected a readable motion file"), std::string::npos) << outcome.output;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "cadence_table.h"
 #include "filter_table.h"
 #include "prediction_table.h"
-#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/number_rule.h"
 
 /// Writes the tables of doc/tracker.md as CSV to standard output.
 int main(int argc, char** argv) {
@@ -20,10 +20,8 @@ int main(int argc, char** argv) {
     } else if (words.size() >= 3 && table == "prediction") {
       write_prediction_table(words[1], {words.begin() + 2, words.end()}, std::cout);
     } else {
-      throw validation::InputError(
-          "tracker_report: arguments: must be filter or cadence, and one motion or more, or prediction, a scene and "
-          "one "
-          "motion or more");
+      validation::refuse("tracker_report", "arguments",
+                         "filter or cadence, and one motion or more, or prediction, a scene and one motion or more");
     }
     return 0;
   } catch (const validation::InputError& e) {

@@ -275,7 +275,7 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
   const Vector3d move = X1_WO.translation() - X0_WO.translation();
   const double path = move.norm() + impl_->bodies[body].radius * turn.norm();
   if (!(resolution > 0.0) || !std::isfinite(path))
-    throw std::invalid_argument("sweep: the resolution must be > 0 and the poses finite");
+    throw std::invalid_argument("sweep: expected a resolution > 0 and finite poses");
   if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance.depth()))) return {};
   const auto at = [&](double fraction) { return math::between(X0_WO, X1_WO, turn, fraction); };
   const auto touching_at = [&](double fraction) { return touches(body, at(fraction), tolerance); };

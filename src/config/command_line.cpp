@@ -28,7 +28,7 @@ bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& 
   int found = 0;
   for (int code; (code = getopt_long(argc, argv, ":", known.data(), &found)) != -1;) {
     const std::string word = optind > 0 && optind <= argc ? argv[optind - 1] : "";
-    if (code == ':') throw validation::InputError(std::string(command_line) + ": " + word + ": needs a value");
+    if (code == ':') validation::refuse(command_line, word, "a value");
     if (code != 0) {
       throw validation::InputError(std::string(command_line) + ": " + validation::one_line(word) +
                                    ": unknown option; --help lists all options");
@@ -40,6 +40,14 @@ bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& 
     throw validation::InputError(std::string(command_line) + ": " + validation::one_line(argv[optind]) +
                                  ": unexpected argument; --help lists all options");
   }
+  return true;
+}
+
+bool print_node_help(int argc, char** argv, const std::string& name, const std::string& what) {
+  if (std::find(argv + 1, argv + argc, std::string("--help")) == argv + argc) return false;
+  std::cout
+      << name << ": " << what << "\nA ROS node without options. doc/reference.md describes its parameters, topics "
+      << "and services; the files in launch\nset the parameters, e.g. roslaunch spring_workbench workbench.launch.\n";
   return true;
 }
 

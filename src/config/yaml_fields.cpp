@@ -15,7 +15,7 @@ namespace {
 
 /// The text of a node as written by the user, shortened to one line.
 std::string node_text(const YAML::Node& node) {
-  if (!node.IsDefined() || node.IsNull()) return "";
+  if (node.IsNull()) return "";
   YAML::Emitter out;
   out.SetSeqFormat(YAML::Flow);
   out.SetMapFormat(YAML::Flow);
@@ -27,23 +27,24 @@ std::string node_text(const YAML::Node& node) {
 /// Like IsScalar(), which throws for an undefined node.
 bool is_scalar(const YAML::Node& node) { return node.IsDefined() && node.IsScalar(); }
 
-std::string place(const YAML::Node& node, const std::string& where) {
-  const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
-  return mark.is_null() || mark.line < 0 ? where : where + ":" + std::to_string(mark.line + 1);
-}
-
 [[noreturn]] void refuse_node(const YAML::Node& node, const std::string& where, const std::string& key,
                               const std::string& rule) {
+  if (!node.IsDefined()) validation::refuse_missing(where, key, rule);
   validation::refuse(place(node, where), key, node_text(node), rule);
 }
 
 }  // namespace
 
+std::string place(const YAML::Node& node, const std::string& where) {
+  const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
+  return mark.is_null() || mark.line < 0 ? where : where + ":" + std::to_string(mark.line + 1);
+}
+
 double read_number(const YAML::Node& node, const std::string& where, const std::string& key,
                    const validation::NumberRule& rule) {
   double value = 0.0;
   if (!is_scalar(node) || !YAML::convert<double>::decode(node, value) || !rule.allows(value)) {
-    refuse_node(node, where, key, rule.text());
+    refuse_node(node, where, key, rule.text(value));
   }
   return value;
 }
@@ -104,7 +105,9 @@ RigidTransform read_pose(const YAML::Node& node, const std::string& where, const
 
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed) {
-  if (!map.IsDefined() || !map.IsMap()) refuse_node(map, where, prefix.empty() ? "top level" : prefix, "a map");
+  if (!map.IsDefined() || !map.IsMap()) {
+    refuse_node(map, where, prefix.empty() ? "top level" : prefix.substr(0, prefix.size() - 1), "a map");
+  }
   std::set<std::string> seen;
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
@@ -123,10 +126,8 @@ namespace {
 /// Refuses files that aliases make endless or huge: `&a [*a]`, or lists of lists of aliases.
 void check_extent(const YAML::Node& node, const std::string& path, int depth, long& values) {
   if (depth > max_nesting_depth)
-    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(max_nesting_depth) +
-                                 " levels deep");
-  if (++values > max_values)
-    throw validation::InputError(path + ": size: must be at most " + std::to_string(max_values) + " values");
+    validation::refuse(path, "nesting", "at most " + std::to_string(max_nesting_depth) + " levels");
+  if (++values > max_values) validation::refuse(path, "size", "at most " + std::to_string(max_values) + " values");
   if (node.IsSequence()) {
     for (const YAML::Node& entry : node) check_extent(entry, path, depth + 1, values);
   } else if (node.IsMap()) {
@@ -144,7 +145,7 @@ YAML::Node load_yaml_file(const std::string& path) {
   std::ostringstream text;
   if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // copying an empty file would fail
   if (!file.is_open() || file.bad() || text.fail()) {
-    throw validation::InputError(path + ": cannot be read; give a readable YAML file");
+    validation::refuse("", path, "a readable YAML file");
   }
   try {
     const YAML::Node node = YAML::Load(text.str());

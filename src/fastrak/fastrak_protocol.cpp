@@ -65,9 +65,8 @@ FastrakLayout::FastrakLayout(const std::vector<int>& items, FastrakFormat format
     items_.push_back(item);
     length_ += item_length(*item);
   }
-  if (!has_position || !has_orientation)
-    throw validation::InputError("output list: must contain a position and an orientation");
-  if (length_ > kLongestRecord) throw validation::InputError("output list: the records must have at most 254 bytes");
+  if (!has_position || !has_orientation) validation::refuse("", "output list", "a position and an orientation");
+  if (length_ > kLongestRecord) validation::refuse("", "output list", "records of at most 254 bytes");
 }
 
 std::optional<FastrakLayout::Numbers> FastrakLayout::read_numbers(const Item& item, std::string_view bytes) const {

@@ -28,7 +28,7 @@ std::vector<int> read_used_stations(const YAML::Node& node, const std::string& w
                             : read_stations(node, where, "stations");
   const std::set<int> different(stations.begin(), stations.end());
   if (stations.empty() || different.size() != stations.size()) {
-    throw validation::InputError(where + ": stations: must be a list of different station numbers between 1 and 4");
+    validation::refuse(where, "stations", "a list of different station numbers between 1 and 4");
   }
   return stations;
 }
@@ -50,7 +50,7 @@ std::vector<int> read_styluses(const YAML::Node& node, const std::string& where,
 FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where) {
   FastrakSettings settings;
   if (map["port"]) settings.port = config::read_string(map["port"], where, "port");
-  if (settings.port.empty()) validation::refuse(where, "port", "", "a path");
+  if (settings.port.empty()) validation::refuse(where, "port", settings.port, "a path");
   if (map["baud"]) {
     settings.baud = std::stoi(
         config::read_choice(map["baud"], where, "baud", {"2400", "4800", "9600", "19200", "38400", "57600", "115200"}));

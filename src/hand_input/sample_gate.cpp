@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "constants.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::hand_input {
 namespace {
@@ -45,33 +46,34 @@ std::string complaint(GateResult result, const RawSample& sample, const InputSet
   stamp << sample.t << " s";
   position << "(" << p.x() << ", " << p.y() << ", " << p.z() << ")";
   rotation << "(" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << ")";
-  const auto must_be = [](const std::string& field, const std::string& rule, const std::ostringstream& given) {
-    return field + ": must be " + rule + ", got " + given.str();
+  const auto invalid = [](const std::string& field, const std::string& rule, const std::ostringstream& given) {
+    return validation::invalid_value("", field, given.str(), rule);
   };
   switch (result) {
     case GateResult::accepted:
     case GateResult::relocation:
       return "";
     case GateResult::not_finite:
-      if (!std::isfinite(sample.t)) return must_be("stamp", "finite", stamp);
-      return p.allFinite() ? must_be("rotation", "finite", rotation) : must_be("position", "finite", position);
+      if (!std::isfinite(sample.t)) return invalid("stamp", "a finite number", stamp);
+      return p.allFinite() ? invalid("rotation", "finite numbers", rotation)
+                           : invalid("position", "finite numbers", position);
     case GateResult::bad_quaternion:
-      return must_be("rotation", "of length 1 within quaternion_tolerance = " + text(settings.quaternion_tolerance),
+      return invalid("rotation", "a length of 1 within quaternion_tolerance = " + text(settings.quaternion_tolerance),
                      rotation);
     case GateResult::too_far:
-      return must_be("position", "within max_distance = " + text(settings.max_distance) + " m", position);
+      return invalid("position", "one within max_distance = " + text(settings.max_distance) + " m", position);
     case GateResult::not_later:
-      return must_be("stamp", "later than the last one", stamp);
+      return invalid("stamp", "later than the last one", stamp);
     case GateResult::too_close:
-      return must_be("stamp", "at least a quarter of the usual sample interval after the last one", stamp);
+      return invalid("stamp", "at least a quarter of the usual sample interval after the last one", stamp);
     case GateResult::too_fast:
-      return must_be("position", "reached at max_speed = " + text(settings.max_speed) + " m/s or less", position);
+      return invalid("position", "one reached at max_speed = " + text(settings.max_speed) + " m/s or less", position);
     case GateResult::turns_too_fast:
-      return must_be("rotation", "reached at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s or less",
+      return invalid("rotation", "one reached at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s or less",
                      rotation);
     case GateResult::out_of_view:
-      return must_be("position",
-                     "farther than origin_radius = " + text(settings.origin_radius) +
+      return invalid("position",
+                     "one farther than origin_radius = " + text(settings.origin_radius) +
                          " m from the origin, or the rotation more than origin_angle = " + text(settings.origin_angle) +
                          " rad from the identity",
                      position);

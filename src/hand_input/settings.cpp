@@ -93,7 +93,8 @@ void set(const std::string& key, const YAML::Node& value, const std::string& whe
     if (entry.description.key == key) return entry.read(value, where, name, settings);
     known.push_back(kGroup + "." + entry.description.key);
   }
-  throw validation::InputError(validation::one_line(where + ": " + name + ": " + validation::unknown_key(name, known)));
+  throw validation::InputError(validation::one_line(validation::prefix(config::place(value, where), name) +
+                                                    validation::unknown_key(name, known)));
 }
 
 /// Sets `value` under `key`; a map is a group of further keys.
@@ -123,7 +124,9 @@ void take_input_settings(YAML::Node& map, const std::string& where, InputSetting
   for (const auto& entry : map) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
     if (name == kGroup) {
-      if (!entry.second.IsMap()) validation::refuse(where, kGroup, YAML::Dump(entry.second), "a map of its keys");
+      if (!entry.second.IsMap()) {
+        validation::refuse(config::place(entry.second, where), kGroup, YAML::Dump(entry.second), "a map of its keys");
+      }
       set_all("", entry.second, where, result);
     } else if (name.rfind(kGroup + ".", 0) == 0) {
       set_all(name.substr(kGroup.size() + 1), entry.second, where, result);

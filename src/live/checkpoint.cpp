@@ -22,8 +22,8 @@ const std::string header = "# spring_workbench checkpoint 1\n";
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  validation::refuse("manipulation", "checkpoint_file", path + " (" + reason + ")",
-                     "the path of a checkpoint or of a new file, in a writable folder");
+  validation::refuse("manipulation", "checkpoint_file", path,
+                     "the path of a checkpoint or of a new file, in a writable folder (" + reason + ")");
 }
 
 /// Opens a checkpoint and reads its header; null if there is no such file.
@@ -69,7 +69,7 @@ void Checkpoint::resume(const std::string& text, const std::string& where,
     map = YAML::Load(text);
   } catch (const YAML::Exception&) {  // truncated: not a map
   }
-  if (!map.IsMap()) throw validation::InputError(where + ": must be a complete checkpoint");
+  if (!map.IsMap()) validation::refuse("", where, "a complete checkpoint");
   const std::string given = config::read_string(map["given_scene"], where, "given_scene");
   if (given != given_scene_)
     validation::refuse(where, "given_scene", given, "the scene of this start, " + given_scene_);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::live {
@@ -55,8 +54,9 @@ Command Command::from(const std::vector<std::uint64_t>& words) {
     if (archive.at_end()) return command;
   } catch (const std::out_of_range&) {
   }
-  throw validation::InputError("command: must be one that was recorded in ~changes, got " +
-                               std::to_string(words.size()) + " words that cannot be decoded");
+  validation::refuse(
+      "", "command",
+      "one that was recorded in ~changes, got " + std::to_string(words.size()) + " words that cannot be decoded");
 }
 
 void Command::exchange(math::StateArchive& state) {
@@ -90,9 +90,8 @@ simulation::ChangeReport perform(const Command& command, simulation::Simulation&
     case Command::Kind::undo:
       break;
   }
-  throw validation::InputError(
-      "command: kind: must be a change of the current scene (not none, load_scene or undo), got " +
-      std::to_string(static_cast<int>(command.kind)));
+  validation::refuse("command", "kind", std::to_string(static_cast<int>(command.kind)),
+                     "a change of the current scene (not none, load_scene or undo)");
 }
 
 std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {

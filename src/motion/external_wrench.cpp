@@ -21,7 +21,7 @@ void validate(const ExternalWrench& sample, const std::string& where) {
   check("torque", sample.wrench.moment, largest_moment);
   const std::vector<std::string> axes = validation::names<ExternalWrench::Axes>();
   if (static_cast<std::size_t>(sample.axes) >= axes.size()) {
-    validation::refuse(where, "axes", "an undefined value", "one of " + validation::join(axes));
+    validation::refuse(where, "axes", "one of " + validation::join(axes));
   }
 }
 

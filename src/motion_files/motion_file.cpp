@@ -67,7 +67,7 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
 
 std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw validation::InputError(path + ": cannot be read; give a readable motion file");
+  if (!file) validation::refuse("", path, "a readable motion file");
   std::vector<motion::StylusSample> samples;
   std::size_t fields = 0;
   long double first_stamp = 0.0L;
@@ -77,11 +77,13 @@ std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
     if (words.empty()) continue;
     const std::string where = path + ":" + std::to_string(number);
     if (words.size() != kFieldsWithoutButton && words.size() != kFieldsWithButton) {
-      validation::refuse(where, "line", std::to_string(words.size()) + " fields", "t x y z qx qy qz qw [button]");
+      validation::refuse(where, "line",
+                         "t x y z qx qy qz qw [button], got " + std::to_string(words.size()) + " fields");
     }
     if (fields != 0 && words.size() != fields) {
-      validation::refuse(where, "line", std::to_string(words.size()) + " fields",
-                         std::to_string(fields) + " fields, as in the lines before");
+      validation::refuse(
+          where, "line",
+          std::to_string(fields) + " fields, as in the lines before, got " + std::to_string(words.size()));
     }
     const Line line = read_line(words, where);
     if (samples.empty()) {
@@ -91,8 +93,8 @@ std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
     samples.push_back(line.sample);
     samples.back().t = whole_nanoseconds(line.stamp - first_stamp);
   }
-  if (file.bad()) throw validation::InputError(path + ": cannot be read; give a readable motion file");
-  if (samples.empty()) throw validation::InputError(path + ": no samples; give lines of t x y z qx qy qz qw [button]");
+  if (file.bad()) validation::refuse("", path, "a readable motion file");
+  if (samples.empty()) validation::refuse("", path, "lines of t x y z qx qy qz qw [button], got none");
   return samples;
 }
 

@@ -12,9 +12,9 @@ namespace {
 motion::StylusSample read_waypoint(const YAML::Node& node, const std::string& path, const std::string& name) {
   config::check_keys(node, path, name + ".", {"t", "pose", "button"});
   motion::StylusSample waypoint;
-  waypoint.t = config::read_number(node["t"], path, name + ".t",
-                                   validation::between(-farthest_script_time, farthest_script_time));
-  waypoint.X = config::read_pose(node["pose"], path, name + ".pose");
+  waypoint.t = config::read_required(node, path, name + ".", "t", config::read_number,
+                                     validation::between(-farthest_script_time, farthest_script_time));
+  waypoint.X = config::read_required(node, path, name + ".", "pose", config::read_pose);
   if (node["button"]) waypoint.button = config::read_bool(node["button"], path, name + ".button");
   return waypoint;
 }
@@ -24,11 +24,11 @@ motion::StylusSample read_waypoint(const YAML::Node& node, const std::string& pa
 ScriptedSource::ScriptedSource(const std::string& path) {
   const YAML::Node script = config::load_yaml_file(path);
   config::check_keys(script, path, "", {"rate", "waypoints"});
-  rate_ = config::read_number(script["rate"], path, "rate", validation::between(0.1, 1e4));
+  rate_ = config::read_required(script, path, "", "rate", config::read_number, validation::between(0.1, 1e4));
   const YAML::Node list = script["waypoints"];
-  if (!list.IsDefined() || !list.IsSequence() || list.size() == 0) {
-    throw validation::InputError(path + ": waypoints: must be a list of at least one {t, pose, button}");
-  }
+  const std::string rule = "a list of at least one {t, pose, button}";
+  if (!list.IsDefined()) validation::refuse_missing(config::place(script, path), "waypoints", rule);
+  if (!list.IsSequence() || list.size() == 0) validation::refuse(config::place(list, path), "waypoints", rule);
   double first = 0.0;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string name = "waypoints[" + std::to_string(i) + "]";
@@ -36,7 +36,7 @@ ScriptedSource::ScriptedSource(const std::string& path) {
     if (i == 0) first = waypoint.t;
     waypoint.t -= first;
     if (i > 0 && !(waypoint.t - waypoints_.back().t > closest_samples)) {
-      validation::refuse(path + ":" + std::to_string(list[i].Mark().line + 1), name + ".t", list[i]["t"].Scalar(),
+      validation::refuse(config::place(list[i], path), name + ".t", list[i]["t"].Scalar(),
                          "later than the waypoint before");
     }
     waypoints_.push_back(waypoint);

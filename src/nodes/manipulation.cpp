@@ -6,6 +6,7 @@
 #include <csignal>
 #include <iostream>
 
+#include "spring_workbench/config/command_line.h"
 #include "spring_workbench/ros/common/background_log.h"
 #include "spring_workbench/ros/common/exit_after_timeout.h"
 #include "spring_workbench/ros/manipulation/manipulation_node.h"
@@ -34,6 +35,9 @@ void end_in_order() {
 
 /// Tools, spring-fork dynamics and collision behind ROS topics and services. Exit status 2: bad parameters or scene.
 int main(int argc, char** argv) {
+  if (spring_workbench::config::print_node_help(argc, argv, "manipulation",
+                                                "simulates the held object, its tools and contact for all hands."))
+    return 0;
   ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler);
   spring_workbench::ros_common::log_in_background();
   end_in_order();

@@ -46,19 +46,20 @@ std::optional<std::pair<double, std::vector<int>>> best_other_order(const Points
 }
 
 void check_shape(const std::vector<Landmark>& landmarks, const Points& to) {
-  if (landmarks.size() < 3) validation::refuse(kWhere, "landmarks", std::to_string(landmarks.size()), "at least 3");
+  if (landmarks.size() < 3)
+    validation::refuse(kWhere, "landmarks", "at least 3, got " + std::to_string(landmarks.size()));
   std::set<std::string> names;
   for (const Landmark& landmark : landmarks) {
     if (!names.insert(landmark.name).second)
       throw validation::InputError(kWhere + ": landmarks: " + landmark.name + " is named twice");
     if (!landmark.p_B.allFinite() || !landmark.p_T.allFinite())
-      validation::refuse(kWhere, landmark.name, "NaN or infinity", "finite numbers");
+      validation::refuse(kWhere, landmark.name, "finite numbers");
   }
   const Points centred = to.colwise() - Vector3d(to.rowwise().mean());
   const Vector3d spread = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues().head<3>();
   if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < min_extent) {
-    validation::refuse(kWhere, "landmarks", millimetres(off_line),
-                       "at least " + millimetres(min_extent) + " off a common line");
+    validation::refuse(kWhere, "landmarks",
+                       "at least " + millimetres(min_extent) + " off a common line, got " + millimetres(off_line));
   }
 }
 
@@ -80,13 +81,12 @@ void check_fit(const std::vector<Landmark>& landmarks, const Registration& resul
     if (other && other->first < largest_residual) {
       given += "; the touches fit the order " + in_order(landmarks, other->second);
     }
-    validation::refuse(kWhere, "residual of " + name, given, "at most " + millimetres(largest_residual));
+    validation::refuse(kWhere, "residual of " + name, "at most " + millimetres(largest_residual) + ", got " + given);
   }
   if (other && other->first < std::max(3.0 * result.rms, 0.5 * largest_residual)) {
-    validation::refuse(
-        kWhere, "landmarks",
-        "ones that also fit in the order " + in_order(landmarks, other->second) + ", to " + millimetres(other->first),
-        "placed such that the touches fit in only one order");
+    validation::refuse(kWhere, "landmarks",
+                       "ones that the touches fit in only one order, got ones that also fit in the order " +
+                           in_order(landmarks, other->second) + ", to " + millimetres(other->first));
   }
 }
 
@@ -123,7 +123,8 @@ Registration register_tracker(const std::vector<Landmark>& landmarks, double lar
 }
 
 PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, double largest_rms) {
-  if (poses_TS.size() < min_poses) validation::refuse(kWhere, "poses", std::to_string(poses_TS.size()), "at least 10");
+  if (poses_TS.size() < min_poses)
+    validation::refuse(kWhere, "poses", "at least 10, got " + std::to_string(poses_TS.size()));
   const Eigen::Index n = static_cast<Eigen::Index>(poses_TS.size());
   Eigen::MatrixXd A(3 * n, 6);
   Eigen::VectorXd b(3 * n);
@@ -135,12 +136,12 @@ PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, doub
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double turned = svd.singularValues()[5] / std::sqrt(static_cast<double>(n));
-  if (!(turned > min_turning))
-    throw validation::InputError(kWhere + ": poses: must be turned by at least 20 degrees about two axes");
+  if (!(turned > min_turning)) validation::refuse(kWhere, "poses", "ones turned by at least 20 degrees about two axes");
   const Eigen::VectorXd x = svd.solve(b);
   PivotCalibration result{x.head<3>(), x.tail<3>(), std::sqrt((A * x - b).squaredNorm() / static_cast<double>(n))};
   if (!(result.rms <= largest_rms)) {
-    validation::refuse(kWhere, "rms of the tip", millimetres(result.rms), "at most " + millimetres(largest_rms));
+    validation::refuse(kWhere, "rms of the tip",
+                       "at most " + millimetres(largest_rms) + ", got " + millimetres(result.rms));
   }
   return result;
 }

@@ -38,16 +38,15 @@ StoredRegistration read_registration(const YAML::Node& map, const std::string& w
 std::vector<Landmark> read_landmarks(const std::string& path) {
   const YAML::Node map = config::load_yaml_file(path);
   config::check_keys(map, path, "", {"landmarks"});
-  if (!map["landmarks"] || !map["landmarks"].IsSequence()) {
-    throw validation::InputError(path + ": landmarks: must be a list of {name, position}");
-  }
+  const std::string rule = "a list of {name, position}";
+  if (!map["landmarks"]) validation::refuse_missing(config::place(map, path), "landmarks", rule);
+  if (!map["landmarks"].IsSequence()) validation::refuse(config::place(map["landmarks"], path), "landmarks", rule);
   std::vector<Landmark> landmarks;
   for (const YAML::Node& entry : map["landmarks"]) {
     config::check_keys(entry, path, "landmarks.", {"name", "position"});
-    if (!entry["name"] || !entry["position"])
-      throw validation::InputError(path + ": landmarks: each entry must have a name and a position");
-    landmarks.push_back(
-        {config::read_string(entry["name"], path, "name"), read_point(entry["position"], path, "position"), {}});
+    landmarks.push_back({config::read_required(entry, path, "landmarks.", "name", config::read_string),
+                         config::read_required(entry, path, "landmarks.", "position", read_point),
+                         {}});
   }
   return landmarks;
 }
@@ -67,8 +66,9 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
                                         const std::vector<std::vector<motion::StylusSample>>& touches,
                                         double largest_residual) {
   if (touches.size() != landmarks.size()) {
-    validation::refuse("registration", "touches", std::to_string(touches.size()),
-                       "one per landmark (" + std::to_string(landmarks.size()) + ")");
+    validation::refuse(
+        "registration", "touches",
+        "one per landmark (" + std::to_string(landmarks.size()) + "), got " + std::to_string(touches.size()));
   }
   for (std::size_t i = 0; i < touches.size(); ++i) {
     Vector3d mean = Vector3d::Zero();
@@ -78,8 +78,9 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
     for (const motion::StylusSample& sample : touches[i]) {
       const double off = (sample.X.translation() - mean).norm();
       if (off <= largest_residual) continue;
-      validation::refuse("registration", "touch of " + landmarks[i].name, millimetres(off),
-                         "within " + millimetres(largest_residual) + " of its mean while the button is down");
+      validation::refuse("registration", "touch of " + landmarks[i].name,
+                         "at most " + millimetres(largest_residual) + " from its mean while the button is down, got " +
+                             millimetres(off));
     }
     landmarks[i].p_T = mean;
   }

@@ -39,8 +39,8 @@ void DrawnFork::deform(const ForkState& fork) {
   validation::check_number("fork", "load", fork.load, validation::between(0.0, 1.0));
   validation::check_number("fork", "diameter", fork.diameter, validation::positive());
   if (q.size() != shape->size() || !shape->admissible(q) || !is_pose(fork.proxy_handle)) {
-    throw validation::InputError("fork: strain, proxy_handle: must be finite and possible for a rod of shape " +
-                                 fork.shape);
+    validation::refuse("fork", "strain, proxy_handle",
+                       "finite numbers that are possible for a rod of shape " + fork.shape);
   }
   const auto& p = fork.proxy_handle.position;
   const auto& r = fork.proxy_handle.orientation;

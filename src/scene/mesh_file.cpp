@@ -24,7 +24,7 @@ std::string package_file(const std::string& name, const std::string& where, cons
   const std::string rest = name.substr(std::string("package://").size());
   const std::string package = rest.substr(0, rest.find('/'));
   const std::string folder = find_package_in_ros_package_path(package);
-  if (folder.empty()) validation::refuse(where, key, name, "in a package that can be found");
+  if (folder.empty()) validation::refuse(where, key, name, "a package that can be found");
   return folder + rest.substr(package.size());
 }
 
@@ -71,10 +71,10 @@ void check_indices(const geometry::TriangleMesh& mesh, const std::string& where)
   for (const Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       if (t[k] < 0 || t[k] >= count) {
-        validation::refuse(where, "vertex index", std::to_string(t[k]), "below the number of vertices");
+        validation::refuse(where, "vertex index", std::to_string(t[k]), "the index of a vertex");
       }
       if (!mesh.corner(t, k).allFinite()) {
-        validation::refuse(where, "vertex", "NaN or infinity", "finite");
+        validation::refuse(where, "vertex", "finite coordinates");
       }
     }
   }
@@ -95,7 +95,7 @@ fs::path path_of(const std::string& name, const std::string& folder, const std::
 void check_folder(const fs::path& path, const std::vector<std::string>& roots, const std::string& name,
                   const std::string& where, const std::string& key) {
   if (roots.empty() || is_in_a_root(path, roots) || is_in_a_package(path)) return;
-  validation::refuse(where, key, name, "in a ROS package or in one of the folders " + validation::join(roots));
+  validation::refuse(where, key, name, "a file in a ROS package or in one of the folders " + validation::join(roots));
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string
   mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(),
                                       [&](const Eigen::Vector3i& t) { return is_flat(mesh, t); }),
                        mesh.triangles.end());
-  if (mesh.triangles.empty()) validation::refuse(where, "triangles", "0", "at least one that is not flat");
+  if (mesh.triangles.empty()) validation::refuse(where, "triangles", "at least one that is not flat");
   merge_vertices(mesh);
   const geometry::MeshPtr view(&mesh, [](const geometry::TriangleMesh*) {});
   if (geometry::volume_properties(view).volume < 0.0) {
@@ -161,7 +161,7 @@ MeshCache::MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)),
 
 geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
                                   const std::string& where) {
-  if (!scale.allFinite() || scale.prod() == 0.0) validation::refuse(where, "mesh scale", name, "finite and nonzero");
+  if (!scale.allFinite() || scale.prod() == 0.0) validation::refuse(where, "mesh scale", "finite nonzero numbers");
   const std::string path = resolve_file(name, folder, roots_, where, "mesh");
   geometry::MeshPtr& mesh = meshes_[{path, scale.x(), scale.y(), scale.z()}];
   if (mesh) return mesh;
@@ -173,8 +173,8 @@ geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale
   geometry::TriangleMesh loaded = read_triangles(path, mesh_where, time_left_);
   triangles_ += loaded.triangles.size();
   if (triangles_ > max_scene_triangles) {
-    validation::refuse(mesh_where, "triangles of the scene", std::to_string(triangles_),
-                       "at most " + std::to_string(max_scene_triangles));
+    validation::refuse(mesh_where, "triangles of the scene",
+                       "at most " + std::to_string(max_scene_triangles) + ", got " + std::to_string(triangles_));
   }
   for (Vector3d& v : loaded.vertices) v = v.cwiseProduct(scale);
   loaded = clean_mesh(std::move(loaded), mesh_where);

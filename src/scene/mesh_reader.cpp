@@ -43,7 +43,7 @@ void append(const aiMesh& part, const std::string& where, geometry::TriangleMesh
     Eigen::Vector3i triangle;
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= part.mNumVertices) {
-        validation::refuse(where, "vertex index", std::to_string(face.mIndices[k]), "below the number of vertices");
+        validation::refuse(where, "vertex index", std::to_string(face.mIndices[k]), "the index of a vertex");
       }
       triangle[k] = static_cast<int>(first + face.mIndices[k]);
     }
@@ -57,11 +57,12 @@ geometry::TriangleMesh read(const std::string& path, const std::string& where) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr)
-    validation::refuse(where, "mesh", path, std::string("readable (") + importer.GetErrorString() + ")");
+    validation::refuse(where, "mesh", path, std::string("a readable mesh (") + importer.GetErrorString() + ")");
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
   if (triangles > max_triangles) {
-    validation::refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(max_triangles));
+    validation::refuse(where, "triangles",
+                       "at most " + std::to_string(max_triangles) + ", got " + std::to_string(triangles));
   }
   geometry::TriangleMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], where, mesh);
@@ -105,7 +106,8 @@ geometry::TriangleMesh read_triangles(const std::string& path, const std::string
       [&] { return read_in_child(path, where); }, {std::min(max_mesh_time, time_left), max_mesh_memory}, &used);
   time_left -= used;
   if (!data || time_left <= 0.0)
-    validation::refuse(where, "mesh", path, "readable within 30 s and 2 GiB, all meshes of a scene within 60 s");
+    validation::refuse(where, "mesh", path,
+                       "a readable mesh (within 30 s and 2 GiB, all meshes of a scene within 60 s)");
   if (data->front() == bad) throw validation::InputError(data->substr(1));
   geometry::TriangleMesh mesh;
   unpack(unpack(data->data() + 1, mesh.vertices), mesh.triangles);

@@ -166,8 +166,8 @@ void set_mass(Body& body, double mass, const std::string& where) {
     std::vector<std::string> warnings;
     const RigidMass solid = solid_mass(body.collision.empty() ? body.visual : body.collision, 1.0, where, warnings);
     if (!(solid.mass > 0.0)) {
-      throw validation::InputError(validation::prefix(where, "mass") + "must be 0, since " + body.name +
-                                   " has no volume, so its inertia is not known");
+      validation::refuse(where, "mass", validation::number_text(mass),
+                         "0, since " + body.name + " has no volume, so its inertia is not known");
     }
     m.inertia_O = mass / solid.mass * solid.inertia;
   } else {

@@ -7,10 +7,6 @@ namespace {
 
 const std::vector<std::string> default_keys = {"friction", "restitution", "density", "material_stiffness", "massless"};
 
-std::string line_of(const YAML::Node& node, const std::string& path) {
-  return path + ":" + std::to_string(node.Mark().line + 1);
-}
-
 /// A map of the file with optional keys.
 struct Fields {
   const YAML::Node& map;
@@ -36,7 +32,7 @@ ObjectEntry read_object(const YAML::Node& map, const std::string& path, const st
   keys.insert(keys.end(), {"urdf", "pose"});
   config::check_keys(map, path, prefix, keys);
   ObjectEntry entry;
-  entry.where = line_of(map, path);
+  entry.where = config::place(map, path);
   entry.material = file.settings.bench_material;
   entry.massless = file.massless;
   const Fields field{map, path, prefix};
@@ -44,8 +40,8 @@ ObjectEntry read_object(const YAML::Node& map, const std::string& path, const st
   field("massless", entry.massless, config::read_bool);
   field("urdf", entry.urdf, config::read_string);
   if (map["pose"].IsDefined() && !entry.urdf) {
-    throw validation::InputError(line_of(map["pose"], path) + ": " + prefix +
-                                 "pose: can only be given together with urdf; the scene's URDF places other objects");
+    throw validation::InputError(validation::prefix(config::place(map["pose"], path), prefix + "pose") +
+                                 "can only be given together with urdf; the scene's URDF places other objects");
   }
   field("pose", entry.X_WL, config::read_pose);
   return entry;
@@ -54,7 +50,7 @@ ObjectEntry read_object(const YAML::Node& map, const std::string& path, const st
 /// Points in a link frame, one per hand [m].
 std::vector<Vector3d> read_grips(const YAML::Node& list, const std::string& path, const std::string& key) {
   if (!list.IsSequence() || list.size() == 0)
-    throw validation::InputError(line_of(list, path) + ": " + key + ": must be a list of points, one per hand");
+    validation::refuse(config::place(list, path), key, "a list of points, one per hand");
   std::vector<Vector3d> points;
   for (const YAML::Node& node : list) {
     const std::vector<double> p = config::read_numbers(node, path, key, 3);
@@ -66,7 +62,7 @@ std::vector<Vector3d> read_grips(const YAML::Node& list, const std::string& path
 Target read_target(const YAML::Node& map, const std::string& path, const std::string& prefix) {
   config::check_keys(map, path, prefix, {"pose", "position_tolerance", "angle_tolerance", "max_force", "grips"});
   Target target;
-  target.X_WL = config::read_pose(map["pose"], path, prefix + "pose");
+  target.X_WL = config::read_required(map, path, prefix, "pose", config::read_pose);
   const Fields field{map, path, prefix};
   field("position_tolerance", target.position_tolerance, config::read_number, validation::positive());
   field("angle_tolerance", target.angle_tolerance, config::read_number, validation::positive());
@@ -81,7 +77,8 @@ std::vector<RigidTransform> read_handles(const YAML::Node& start, const std::str
   config::check_keys(start, path, "start.", keys);
   keys.pop_back();
   std::vector<RigidTransform> handles;
-  for (const std::string& key : keys) handles.push_back(config::read_pose(start[key], path, "start." + key));
+  for (const std::string& key : keys)
+    handles.push_back(config::read_required(start, path, "start.", key, config::read_pose));
   return handles;
 }
 
@@ -108,8 +105,7 @@ void read_settings(const YAML::Node& map, const std::string& path, SceneFile& fi
 template <class Read>
 void for_each_entry(const YAML::Node& map, const std::string& path, const std::string& key, const Read& read) {
   if (!map[key].IsDefined()) return;
-  if (!map[key].IsMap())
-    throw validation::InputError(line_of(map[key], path) + ": " + key + ": must be a map of names");
+  if (!map[key].IsMap()) validation::refuse(config::place(map[key], path), key, "a map of names");
   for (const auto& entry : map[key]) read(config::read_string(entry.first, path, key), entry.second);
 }
 
@@ -129,11 +125,11 @@ SceneFile read_scene_file(const std::string& path) {
     const Target& target = file.settings.targets[name] = read_target(node, path, "targets." + name + ".");
     const std::size_t hands = file.settings.X_WH_start.size();
     if (target.p_LG.size() > hands) {
-      validation::refuse(line_of(node["grips"], path), "targets." + name + ".grips",
-                         std::to_string(target.p_LG.size()) + " points",
-                         "at most " + std::to_string(hands) + ", one for each handle of start");
+      validation::refuse(config::place(node["grips"], path), "targets." + name + ".grips",
+                         "at most " + std::to_string(hands) + ", one for each handle of start, got " +
+                             std::to_string(target.p_LG.size()) + " points");
     }
-    file.targets[name] = line_of(node, path);
+    file.targets[name] = config::place(node, path);
   });
   return file;
 }

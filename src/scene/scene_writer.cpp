@@ -60,7 +60,7 @@ void add_geometry(TiXmlElement& parent, const geometry::Geometry& geometry, cons
     of.SetAttribute("length", text_of(cylinder->length));
   } else {
     const geometry::TriangleMesh& mesh = *std::get<geometry::MeshPtr>(geometry);
-    if (mesh.uri.empty()) validation::refuse("", "mesh of " + body, "one without a file", "read from a file");
+    if (mesh.uri.empty()) validation::refuse("", "mesh of " + body, "one that was read from a file");
     TiXmlElement& of = add(kind, "mesh");
     of.SetAttribute("filename", mesh.uri);
     of.SetAttribute("scale", text_of(mesh.scale));
@@ -192,7 +192,7 @@ std::string yaml_of(const Scene& scene) {
 
 std::string save_scene(const Scene& scene, const std::string& path, const std::vector<std::string>& roots) {
   const fs::path urdf = resolve_new_file(path, roots, "", "path");
-  if (urdf.extension() != ".urdf") validation::refuse("", "path", path, "one that ends in .urdf");
+  if (urdf.extension() != ".urdf") validation::refuse("", "path", path, "a path that ends in .urdf");
   const fs::path yaml = fs::path(urdf).replace_extension(".yaml");
   config::OutputFile new_urdf(urdf.string()), new_yaml(yaml.string());
   new_urdf.write(urdf_of(scene));

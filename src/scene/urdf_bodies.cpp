@@ -14,7 +14,7 @@ RigidTransform to_transform(const urdf::Pose& pose, const std::string& where) {
   const Vector3d p(pose.position.x, pose.position.y, pose.position.z);
   const Quaterniond rotation(q.w, q.x, q.y, q.z);
   if (!p.allFinite() || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.0)) {
-    validation::refuse(where, "origin", "NaN or infinity", "finite");
+    validation::refuse(where, "origin", "a finite pose");
   }
   return make_transform(rotation, p);
 }

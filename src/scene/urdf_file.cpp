@@ -120,7 +120,7 @@ void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& comp
     const TiXmlElement* shape = shape_of(element);
     if (is_urdf_shape(shape)) throw validation::InputError(where + kind + ": " + complaint);
     const std::string what = shape != nullptr ? "shape '" + shape->ValueStr() + "'" : "shape missing";
-    file.warnings.push_back(where + kind + " skipped: " + what + ", must be box, cylinder, mesh or sphere");
+    file.warnings.push_back(where + kind + " skipped: " + what + ": expected box, cylinder, mesh or sphere");
   }
   link.RemoveChild(&element);
 }
@@ -160,15 +160,15 @@ TiXmlDocument load_xml(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream stream;
   if (!in || !(stream << in.rdbuf())) {
-    throw validation::InputError(path + ": cannot be read; give a readable URDF file");
+    validation::refuse("", path, "a readable URDF file");
   }
   const std::string text = stream.str();
   TiXmlDocument document;
   const bool parsed = can_be_parsed(text);
   if (parsed) document.Parse(text.c_str());
   if (!parsed || depth_below(document) > max_nesting) {
-    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(max_nesting) +
-                                 " elements deep, and readable within 5 s and 1 GiB");
+    validation::refuse(path, "nesting",
+                       "at most " + std::to_string(max_nesting) + " levels of elements, readable within 5 s and 1 GiB");
   }
   if (document.Error()) {
     throw validation::InputError(place(path, document.ErrorRow()) +
@@ -194,7 +194,7 @@ struct ChildLink {
   const char* name = joint.Attribute("name");
   validation::refuse(validation::one_line(place(path, joint.Row()) + ": joint '" + (name != nullptr ? name : "") + "'"),
                      "child", validation::one_line(end_of(joint, "child")),
-                     "the child of no other joint, and not an ancestor of its parent");
+                     "a link that is the child of no other joint, and not an ancestor of its parent");
 }
 
 /// Refuses links that do not form a tree: urdfdom accepts loops, but then walks them endlessly and never frees them.
@@ -228,10 +228,9 @@ UrdfFile read_urdf_file(const std::string& path) {
     refuse_loops(*robot, path);
     std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
-      if (++links > max_links)
-        throw validation::InputError(path + ": links: must be at most " + std::to_string(max_links) + ", got more");
+      if (++links > max_links) validation::refuse(path, "links", "at most " + std::to_string(max_links) + ", got more");
       if (link->Attribute("name") == nullptr)
-        throw validation::InputError(place(path, link->Row()) + ": link: name: missing; give each link a name");
+        validation::refuse_missing(place(path, link->Row()), "link.name", "name of the link");
       file.link_lines[link->Attribute("name")] = link->Row();
       try_elements(*link, file);
     }

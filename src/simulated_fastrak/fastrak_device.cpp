@@ -41,12 +41,11 @@ bool read_arguments(const std::string& text, std::vector<double>& numbers) {
 PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples) {
   for (const motion::StylusSample& sample : samples) {
     if (!(sample.X.translation().cwiseAbs().maxCoeff() < farthest_played)) {
-      throw validation::InputError("motion: position at " + std::to_string(sample.t) +
-                                   " s: must be within 9.99 m of the origin");
+      validation::refuse("motion", "position at " + std::to_string(sample.t) + " s", "one within 9.99 m of the origin");
     }
     if (samples_.empty() || sample.t > samples_.back().t) samples_.push_back(sample);
   }
-  if (samples_.empty()) throw validation::InputError("motion: no samples; give at least one");
+  if (samples_.empty()) validation::refuse("", "motion", "at least one sample");
 }
 
 motion::StylusSample PlayedMotion::at(double t) const {
@@ -67,7 +66,8 @@ motion::StylusSample PlayedMotion::at(double t) const {
 FastrakDevice::FastrakDevice(std::vector<PlayedMotion> motions, std::vector<int> switches)
     : motions_(std::move(motions)), switches_(std::move(switches)) {
   if (motions_.empty() || motions_.size() > stations_.size()) {
-    validation::refuse("device", "motions", std::to_string(motions_.size()), "1, 2, 3 or 4, one for each station");
+    validation::refuse("device", "motions",
+                       "1, 2, 3 or 4, one for each station, got " + std::to_string(motions_.size()));
   }
   reset();
 }

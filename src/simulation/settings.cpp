@@ -78,7 +78,7 @@ Field choice(const char* key, const char* meaning, T& value, const char* absent 
   return {{key, "string", "–", allowed, given(value) && index() < names.size() ? names[index()] : absent, meaning},
           [=, &value](const auto& node, const auto& where) { value = config::read_named<E>(node, where, key); },
           [=](const auto& where) {
-            if (index() >= names.size()) validation::refuse(where, key, "an undefined value", allowed);
+            if (index() >= names.size()) validation::refuse(where, key, allowed);
           }};
 }
 
@@ -190,14 +190,19 @@ std::vector<Field> grasp_fields(S& s) {
              s.limit.action),
       {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
         "this object is held from the first sample to the last"},
-       [&](const auto& node, const auto& where) { object = config::read_string(node, where, "grasp.object"); },
+       [&](const auto& node, const auto& where) {
+         object = config::read_string(node, where, "grasp.object");
+         s.grasp.object_place = config::place(node, where);
+       },
        [](const auto&) {}},  // checked against the scene later
       {{"grasp.tip_in_object", "double list", "m, –", "x y z qx qy qz qw, the quaternion nonzero",
         "the pose of the tip at the grasp", "the tip frame in the object's centre-of-mass frame"},
-       [&](const auto& node, const auto& where) { tip = config::read_pose(node, where, "grasp.tip_in_object"); },
+       [&](const auto& node, const auto& where) {
+         tip = config::read_pose(node, where, "grasp.tip_in_object");
+         s.grasp.tip_place = config::place(node, where);
+       },
        [&](const auto& where) {
-         if (!tip || tip->matrix().allFinite()) return;
-         validation::refuse(where, "grasp.tip_in_object", "NaN or infinity", "a finite pose");
+         if (tip && !tip->matrix().allFinite()) validation::refuse(where, "grasp.tip_in_object", "a finite pose");
        }},
       flag("start.follow", "move the object so that the grasp fits the first pose of the handle", s.grasp.start_follow),
       choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)", s.grasp.release),
@@ -255,11 +260,11 @@ void check_together(const S& settings, const std::string& where) {
   if (fork.damping_law == rod::DampingLaw::modal && !one_ratio) {
     validation::refuse(where, "fork.damping",
                        text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
-                       "the same for stretch, bend and torsion if the damping law is modal");
+                       "equal ratios of stretch, bend and torsion if the damping law is modal");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    throw validation::InputError(validation::prefix(where, "grasp.tip_in_object") +
-                                 "needs start.follow: true, so that the object can move to it");
+    validation::refuse(settings.grasp.tip_place, "grasp.tip_in_object",
+                       "start.follow: true as well, so that the object can move to it");
   }
 }
 
@@ -318,10 +323,8 @@ void validate(const ObjectEdit& edit) {
     validation::refuse("", "action", std::to_string(static_cast<int>(edit.action)),
                        "one of " + validation::join(validation::names<ObjectEdit::Action>()));
   }
-  if (edit.X_WL && !edit.X_WL->matrix().allFinite()) {
-    validation::refuse("", "pose", "NaN or infinity", "a finite pose");
-  }
-  if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse("", "pose", "", "a pose to move to");
+  if (edit.X_WL && !edit.X_WL->matrix().allFinite()) validation::refuse("", "pose", "a finite pose");
+  if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse("", "pose", "a pose to move to");
   validation::check_number("", "mass", edit.mass, between(0.0, 1e12));
   validation::check_number("", "friction", edit.friction, validation::not_negative());
 }
@@ -334,17 +337,16 @@ std::vector<SettingDescription> setting_descriptions() {
 }
 
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings) {
-  if (!values.IsMap())
-    throw validation::InputError(validation::prefix(where, "top level") + "must be a map of settings");
+  if (!values.IsMap()) validation::refuse(config::place(values, where), "top level", "a map of settings");
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;
   const std::vector<Field> table = fields(changed);
   std::set<std::string> seen;
   for (const auto& [key, node] : flat) {
-    const std::string line = node.Mark().is_null() ? "" : ":" + std::to_string(node.Mark().line + 1);
-    if (!seen.insert(key).second) throw validation::InputError(validation::prefix(where + line, key) + "given twice");
-    find_field(table, key, where + line).read(node, where);
+    const std::string place = config::place(node, where);
+    if (!seen.insert(key).second) throw validation::InputError(validation::prefix(place, key) + "given twice");
+    find_field(table, key, place).read(node, where);
   }
   settings = changed;
 }

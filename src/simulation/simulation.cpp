@@ -32,7 +32,7 @@ void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bo
   validate(edit);
   if (edit.action == Action::add) {
     scene.bodies.push_back(scene::read_object(edit.name, edit.urdf, edit.X_WL, scene, roots, ""));
-    if (!scene.bodies.back().movable) validation::refuse("", "urdf", edit.urdf, "of an object whose root has mass");
+    if (!scene.bodies.back().movable) validation::refuse("", "urdf", edit.urdf, "an object whose root has mass");
     if (massless) scene::set_mass(scene.bodies.back(), 0.0, "");
     return;
   }
@@ -70,7 +70,8 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   }
   if (settings.tool) scene.tool = validation::name_of(*settings.tool);
   for (const ObjectEdit& edit : edits) make_edit(edit, roots, settings.massless, scene);
-  if (!settings.grasp.object.empty()) scene::movable_body(scene, settings.grasp.object, "", "grasp.object");
+  if (const tools::GraspSettings& grasp = settings.grasp; !grasp.object.empty())
+    scene::movable_body(scene, grasp.object, grasp.object_place, "grasp.object");
   return scene;
 }
 
@@ -88,9 +89,9 @@ void check_origin(const std::string& saved, const std::string& present) {
   std::istringstream of_saved(saved), of_present(present);
   for (std::string was, is; std::getline(of_present, is);) {
     if (!std::getline(of_saved, was)) was = "nothing saved";
-    if (was != is) validation::refuse("", "state", "one with " + was, "one with " + is);
+    if (was != is) validation::refuse("", "state", "one with " + is + ", got one with " + was);
   }
-  if (std::string more; std::getline(of_saved, more)) validation::refuse("", "state", more, "one without it");
+  if (std::string more; std::getline(of_saved, more)) validation::refuse("", "state", "one without " + more);
 }
 
 /// Returns whether this change would change the fork.
@@ -131,7 +132,7 @@ struct Simulation::Impl {
   }
   Hand& hand(std::size_t index) {
     if (index < hands.size()) return hands[index];
-    validation::refuse("", "hand", std::to_string(index), "less than " + std::to_string(hands.size()));
+    validation::refuse("", "hand", std::to_string(index), "a number < " + std::to_string(hands.size()));
   }
   double in_world(double t) const { return settings.hand_time_scale * t; }
   /// Converts world time to the hand's; exact for the last requested time, so that requesting it again changes nothing.
@@ -484,7 +485,7 @@ void Simulation::reset() {
 void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
   for (const auto& [name, X] : X_WO) {
     scene::movable_body(impl_->scene, name, "", "name");
-    if (!X.matrix().allFinite()) validation::refuse("", name, "NaN or infinity", "a finite pose");
+    if (!X.matrix().allFinite()) validation::refuse("", name, "a finite pose");
   }
   release();
   for (const auto& [name, X] : X_WO) impl_->objects.place(*impl_->objects.find(name), X, impl_->now);
@@ -558,18 +559,15 @@ void Simulation::change(const ForkChange& fork_change, const DynamicsChange& dyn
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
   const std::string other = objects.inside_of(*objects.find(name), X_WO);
   if (other.empty()) return;
-  validation::refuse("", "pose", "one at which it overlaps " + other,
-                     "a pose at which " + name + " overlaps no other body by more than 0.1 mm");
+  validation::refuse("", "pose",
+                     "one at which " + name + " overlaps no other body by more than 0.1 mm; it overlaps " + other);
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
   const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.name, "", "name")];
   const std::size_t object = *objects.find(edit.name);
   for (const Hand& hand : hands) {
-    if (hand.carried() == object) {
-      validation::refuse("", "name", edit.name + ", which a tool holds or pushes",
-                         "an object that no tool holds or pushes");
-    }
+    if (hand.carried() == object) validation::refuse("", "name", edit.name, "an object that no tool holds or pushes");
   }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
   check_place(edit.name, X_WO);

@@ -45,7 +45,7 @@ SimulationState parse_state(const std::string& text) {
   } catch (const YAML::Exception&) {
   }
   if (!map.IsMap() || config::read_string(map["format"], where, "format") != format) {
-    throw validation::InputError(where + ": format: must be " + format);
+    validation::refuse(where, "format", format);
   }
   SimulationState state;
   state.origin_ = config::read_string(map["made_with"], where, "made_with");

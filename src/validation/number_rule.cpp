@@ -7,9 +7,7 @@
 #include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::validation {
-namespace {
 
-/// Formats a value with as few digits as needed, at most 12; 1e-6 and 1e9 without padding zeros.
 std::string number_text(double value) {
   if (std::isnan(value)) return "nan";  // never "-nan"
   std::string text;
@@ -27,18 +25,16 @@ std::string number_text(double value) {
   return text;
 }
 
-}  // namespace
-
 bool NumberRule::allows(double value) const {
   if (std::isnan(value)) return false;
   if (std::isinf(value)) return infinity_allowed && value > 0.0;
   return (min_allowed ? value >= min : value > min) && value <= max;
 }
 
-std::string NumberRule::text() const {
+std::string NumberRule::text(double value) const {
   constexpr double unbounded = std::numeric_limits<double>::max();
   if (min > -unbounded && max < unbounded) return "a number between " + number_text(min) + " and " + number_text(max);
-  std::string text = "a finite number";
+  std::string text = std::isfinite(value) ? "a number" : "a finite number";
   if (min > -unbounded) {
     text += (min_allowed ? " >= " : " > ") + number_text(min);
   } else if (max < unbounded) {
@@ -51,16 +47,28 @@ std::string prefix(const std::string& where, const std::string& key) {
   return (where.empty() ? "" : where + ": ") + key + ": ";
 }
 
-void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
-  const std::string place = prefix(where, key);
-  if (value.empty()) throw InputError(one_line(place + "missing; give " + rule));
+std::string invalid_value(const std::string& where, const std::string& key, const std::string& value,
+                          const std::string& rule) {
   const auto now = renamed_values().find(value);
   const std::string allowed = now == renamed_values().end() ? rule : now->second + ", which has replaced it";
-  throw InputError(one_line(place + "must be " + allowed + ", got " + value));
+  return one_line(prefix(where, key) + "invalid value '" + value + "': expected " + allowed);
+}
+
+void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
+  throw InputError(invalid_value(where, key, value, rule));
+}
+
+void refuse(const std::string& where, const std::string& key, const std::string& rule) {
+  throw InputError(one_line(prefix(where, key) + "expected " + rule));
+}
+
+void refuse_missing(const std::string& where, const std::string& key, const std::string& rule) {
+  if (key.rfind("--", 0) == 0) throw InputError(one_line("missing required option " + key + ": " + rule));
+  throw InputError(one_line((where.empty() ? "" : where + ": ") + "missing required key " + key + ": " + rule));
 }
 
 void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule) {
-  if (!rule.allows(value)) refuse(where, key, number_text(value), rule.text());
+  if (!rule.allows(value)) refuse(where, key, number_text(value), rule.text(value));
 }
 
 std::string join(const std::vector<std::string>& words, const std::string& separator) {

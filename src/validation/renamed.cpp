@@ -63,7 +63,7 @@ std::string unknown_key(const std::string& key, const std::vector<std::string>& 
   if (found != renamed().end()) return "unknown key; it is now called " + found->second;
   const auto inside =
       std::find_if(known.begin(), known.end(), [&](auto& name) { return name.rfind(key + ".", 0) == 0; });
-  if (inside != known.end()) return "must be a map, e.g. with the key " + *inside;
+  if (inside != known.end()) return "expected a map, e.g. with the key " + *inside;
   const auto nearer = [&key](const std::string& a, const std::string& b) { return edits(key, a) < edits(key, b); };
   const auto nearest = std::min_element(known.begin(), known.end(), nearer);
   const bool misspelt = nearest != known.end() && edits(key, *nearest) <= max_edits;

@@ -55,14 +55,14 @@ class BadStart(unittest.TestCase):
         self.check(
             "manipulation",
             [
-                ({"rate": 100}, ["scene", "missing"]),
+                ({"rate": 100}, ["missing required key scene: "]),
                 ({"scene": "/nowhere/a.urdf"}, ["/nowhere/a.urdf"]),
                 ({"scene": broken}, [broken]),
                 ({"scene": SCENE, "scene_file": "a"}, ["scene_file", "unknown"]),
                 ({"scene": SCENE, "rate": "fast"}, ["rate", "fast"]),
                 ({"scene": SCENE, "fork": {"stiffness": {"bend": math.nan}}}, ["fork.stiffness.bend", "nan"]),
                 ({"scene": SCENE, "fork": {"stiffness": {"bend": -5.0}}}, ["fork.stiffness.bend", "-5"]),
-                ({"scene": SCENE, "fork": 3}, ["fork", "must be a map"]),
+                ({"scene": SCENE, "fork": 3}, ["fork: expected a map"]),
                 ({"scene": SCENE, "grasp": {"object": "teapot"}}, ["grasp.object", "teapot"]),
             ],
         )

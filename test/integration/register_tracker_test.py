@@ -133,16 +133,16 @@ class RegisterTracker(unittest.TestCase):
         tip = self.file("tip.yaml", "tip: [0.01, -0.02, 0.15]\n")
         again = ["--landmarks", known, "--registration", tip, "--motion"]
         self.refuse("order b, a, c, d, e", *again, self.motion([straight[i] for i in (1, 0, 2, 3, 4)]))
-        self.refuse("touches: must be one per landmark (5), got 4", *again, self.motion(straight[:4]))
-        self.refuse("of its mean while", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
+        self.refuse("touches: expected one per landmark (5), got 4", *again, self.motion(straight[:4]))
+        self.refuse("from its mean while", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
         self.refuse(
             "turned by",
             "--pivot",
             "--motion",
             self.file("still.tum", "".join("%g 0 0 0 0 0 0 1 %d\n" % (0.02 * k, k > 10) for k in range(100))),
         )
-        self.refuse("one of --landmarks and --pivot")
-        self.refuse("one of --landmarks and --pivot", "--pivot", "--landmarks", known)
+        self.refuse("missing required option --landmarks or --pivot: ")
+        self.refuse("--landmarks, --pivot: cannot be given together", "--pivot", "--landmarks", known)
         self.refuse("option", "--no-such-option")
 
     def test_recorded_stylus_on_landmarks(self):

@@ -109,23 +109,25 @@ TEST_F(Replay, ABagOfManyHandsIsReplayedWithAllOfThem) {
   EXPECT_GT(all_hold, 50);
   write_bag(path("far.bag"), lifting_hand(), {"workbench", "stylus_300", "stylus_300/joy"});
   expect_refused("--scene box.urdf --bag far.bag --out run.csv",
-                 {"styluses: must be an integer between 1 and 255, got 300"});
+                 {"styluses: invalid value '300': expected an integer between 1 and 255"});
 }
 
 TEST_F(Replay, BadBagsAreRefused) {
   auto samples = lifting_hand();
   write_bag(path("frames.bag"), samples, {"odom", "base_link"});
   expect_refused("--scene box.urdf --bag frames.bag --out run.csv",
-                 {"frames.bag: transform: must be in the bag, which has odom -> base_link, got workbench -> stylus"});
+                 {"frames.bag: transform: invalid value 'workbench -> stylus': expected one in the bag, which has odom "
+                  "-> base_link"});
   samples[3].qx = samples[3].qy = samples[3].qz = samples[3].qw = 0.0;
   write_bag(path("zero.bag"), samples);
   expect_refused("--scene box.urdf --bag zero.bag --out run.csv",
                  {"zero.bag: workbench -> stylus at 1500000000.183456789",
-                  "norm of rotation: must be a number between 0.5 and 2, got 0"});
+                  "norm of rotation: invalid value '0': expected a number between 0.5 and 2"});
   samples = lifting_hand();
   samples[4].x = std::nan("");
   write_bag(path("nan.bag"), samples);
-  expect_refused("--scene box.urdf --bag nan.bag --out run.csv", {"nan.bag", "translation.x: must be", "got nan"});
+  expect_refused("--scene box.urdf --bag nan.bag --out run.csv",
+                 {"nan.bag", "translation.x: invalid value 'nan': expected"});
   std::filesystem::resize_file(path("frames.bag"), 5000);
   expect_refused("--scene box.urdf --bag frames.bag --out run.csv", {"frames.bag"});
   rosbag::Bag(path("empty.bag"), rosbag::bagmode::Write).close();

@@ -157,11 +157,11 @@ class Files(unittest.TestCase):
         columns = sa.KEY + sa.SCORE
         row = {"participant": 1, "order": 1, "condition": "a", "trial": 1, "practice": 0, "time_s": 5}
         for rows, words in [
-            ([row], ["1 conditions"]),
+            ([row], ["conditions: expected two or more in the files, got 1"]),
             ([row, row], [":3", "twice"]),
             ([{**row, "time_s": "nan"}], [":2: time_s", "finite", "nan"]),
             ([{**row, "time_s": "long"}], [":2: time_s", "long"]),
-            ([row, {**row, "condition": "b"}], ["1 participants", "two or more"]),
+            ([row, {**row, "condition": "b"}], ["expected two participants or more with all conditions, got 1"]),
         ]:
             self.refused(self.run_it(self.write("bad.csv", columns, rows)), words)
         self.refused(self.run_it(self.write("bad.csv", ("tool", "seed"), [])), ["bad.csv:1", "columns"])

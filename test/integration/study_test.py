@@ -150,7 +150,7 @@ class Study(unittest.TestCase):
             self.assertIn(word, err)
         status, out, err = self.end(self.start("1-2", operator=()))
         self.assertEqual((status, out), (2, ""))
-        self.assertIn("--participant: must be a number or, with --operator, FIRST-LAST, got 1-2", err)
+        self.assertIn("--participant: invalid value '1-2': expected a number or, with --operator, FIRST-LAST", err)
 
 
 if __name__ == "__main__":

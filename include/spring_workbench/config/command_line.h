@@ -32,6 +32,10 @@ CommandOption integer_option(const std::string& name, int min, int max, int& val
 /// InputError for an unknown option, a missing value, or an argument that is not an option.
 bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& options);
 
+/// For the main() of a ROS node, which has no options: if one of the arguments is `--help`, prints what the node is and
+/// where its parameters are described, and returns true.
+bool print_node_help(int argc, char** argv, const std::string& name, const std::string& what);
+
 /// Body of main(): calls `run(*options)`, or prints the help text if `parse()` returns nothing. Prints an exception as
 /// one line on stderr. Returns the exit status: 0 success, 1 failure, 2 bad arguments or input.
 template <typename Parse, typename Run>

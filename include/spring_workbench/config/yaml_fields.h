@@ -11,6 +11,9 @@
 
 namespace spring_workbench::config {
 
+/// `where` with the node's line in it ("scene.yaml:4"), if the node has one.
+std::string place(const YAML::Node& node, const std::string& where);
+
 // Typed readers of one YAML value. `where` names its origin (a file name, "command line"); messages add the line number
 // if the node has one. Each throws InputError for a missing or invalid value.
 double read_number(const YAML::Node& node, const std::string& where, const std::string& key,
@@ -30,6 +33,15 @@ std::vector<double> read_numbers(const YAML::Node& node, const std::string& wher
                                  std::size_t count);
 /// Reads a pose `x y z qx qy qz qw` (list or string) [m, –]. The quaternion is normalised; a zero one is refused.
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key);
+
+/// Reads the value of `key` in `map` by one of these readers. If it is missing, the message gives the line of the map.
+/// `prefix` precedes the key in messages.
+template <typename Read, typename... Rule>
+auto read_required(const YAML::Node& map, const std::string& where, const std::string& prefix, const std::string& key,
+                   const Read& read, const Rule&... rule) {
+  const YAML::Node value = map[key];
+  return read(value, value.IsDefined() ? where : place(map, where), prefix + key, rule...);
+}
 
 /// Throws InputError if the node is not a map, or if a key is duplicate or not in `allowed`. `prefix` precedes the key
 /// in messages.

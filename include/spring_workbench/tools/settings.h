@@ -53,9 +53,10 @@ struct GraspSettings {
   std::string object =
       "";  ///< key `grasp.object`: object that is held from the first sample on; empty: grasp by button
   std::optional<RigidTransform>
-      X_OE;                   ///< key `grasp.tip_in_object` (x y z qx qy qz qw); absent: the tip's pose at the grasp
-  bool start_follow = false;  ///< key `start.follow`: move the object so that the grasp fits the first pose
-  Release release = Release::thrown;  ///< key `release`
+      X_OE;  ///< key `grasp.tip_in_object` (x y z qx qy qz qw); absent: the tip's pose at the grasp
+  std::string object_place, tip_place;  ///< where these two were given ("settings.yaml:3"), for messages
+  bool start_follow = false;            ///< key `start.follow`: move the object so that the grasp fits the first pose
+  Release release = Release::thrown;    ///< key `release`
 };
 
 }  // namespace spring_workbench::tools

@@ -16,7 +16,8 @@ struct NumberRule {
   bool infinity_allowed = false;  ///< true: `.inf` is allowed although it is greater than `max`
 
   bool allows(double value) const;
-  std::string text() const;  ///< e.g. "a finite number > 0", "a number between 0 and 1"
+  /// E.g. "a number > 0", "a number between 0 and 1"; "a finite number > 0" if `value`, which was given, is not finite.
+  std::string text(double value = 0.0) const;
 };
 inline NumberRule any_number() { return {}; }
 inline NumberRule positive() { return {0.0, std::numeric_limits<double>::max(), false, false}; }
@@ -24,13 +25,24 @@ inline NumberRule not_negative() { return {0.0, std::numeric_limits<double>::max
 inline NumberRule positive_or_infinite() { return {0.0, std::numeric_limits<double>::max(), false, true}; }
 inline NumberRule between(double min, double max) { return {min, max, true, false}; }
 
+/// A number as short as possible, with at most 12 digits; 1e-6 and 1e9 without padding zeros.
+std::string number_text(double value);
+
 /// Beginning of a message: "<where>: <key>: ", or "<key>: " if `where` is empty, as for an argument of the library.
 std::string prefix(const std::string& where, const std::string& key);
 
-/// Throws InputError("<where>: <key>: must be <rule>, got <value>"), or "<where>: <key>: missing; give <rule>" if
-/// `value` is empty; see prefix().
+/// The message "<where>: <key>: invalid value '<value>': expected <rule>", in one line; see prefix().
+std::string invalid_value(const std::string& where, const std::string& key, const std::string& value,
+                          const std::string& rule);
+
+/// Throws InputError(invalid_value()).
 [[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& value,
                          const std::string& rule);
+/// The same if there is no value to quote: throws InputError("<where>: <key>: expected <rule>").
+[[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& rule);
+/// Throws InputError("<where>: missing required key <key>: <rule>"), or, for an option of the command line (`--name`),
+/// InputError("missing required option <key>: <rule>").
+[[noreturn]] void refuse_missing(const std::string& where, const std::string& key, const std::string& rule);
 
 /// Throws (see `refuse`) unless the rule allows `value`.
 void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule);

@@ -33,7 +33,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
            config::text_option("record", options.record)})) {
     return std::nullopt;
   }
-  if (options.scene.empty()) validation::refuse(command_line, "--scene", "", "a URDF of a scene with targets");
+  if (options.scene.empty()) validation::refuse_missing(command_line, "--scene", "path of a URDF scene with targets");
   return options;
 }
 
@@ -48,7 +48,7 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
                 [--table TABLE.csv] [--record HAND.tum]
 
   --scene     a scene whose YAML file has targets: path or package:// URI of the URDF
-  --settings  a YAML file of settings for all tools, as for replay
+  --settings  a YAML file of settings for all tools: the keys of replay except rate and input.*
   --tool      one tool only: )" +
          validation::join(tool_labels()) + R"(; default: each of them
   --trials    number of trials per tool; default 20

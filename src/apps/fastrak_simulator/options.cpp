@@ -32,7 +32,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
            config::integer_option("seed", 0, std::numeric_limits<int>::max(), options.seed)})) {
     return std::nullopt;
   }
-  if (options.motions.empty()) validation::refuse(command_line, "--motion", "", "the path of a motion file or script");
+  if (options.motions.empty()) validation::refuse_missing(command_line, "--motion", "path of a motion file or script");
   return options;
 }
 

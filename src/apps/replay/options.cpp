@@ -11,7 +11,7 @@ namespace {
 
 /// Applies `values`: the key `rate` here, all others to the settings of the simulation.
 void apply(const YAML::Node& values, const std::string& where, Options& options) {
-  if (!values.IsMap()) throw validation::InputError(where + ": top level: must be a map of settings");
+  if (!values.IsMap()) validation::refuse(config::place(values, where), "top level", "a map of settings");
   YAML::Node settings(YAML::NodeType::Map);
   for (const auto& entry : values) {
     if (entry.first.IsScalar() && entry.first.Scalar() == "rate") {
@@ -36,26 +36,26 @@ config::CommandOption once(const std::string& name, std::string& field) {
   return {name, [=, &field](const std::string& value) {
             if (!field.empty())
               throw validation::InputError(std::string(command_line) + ": --" + name + ": given twice");
-            if (value.empty()) validation::refuse(command_line, "--" + name, "", "a path or a name");
+            if (value.empty()) validation::refuse(command_line, "--" + name, value, "a path or a name");
             field = value;
           }};
 }
 
 void add_motion(const std::string& path, std::vector<std::string>& motions) {
-  if (path.empty()) validation::refuse(command_line, "--motion", "", "a path");
+  if (path.empty()) validation::refuse(command_line, "--motion", path, "a path");
   motions.push_back(path);
 }
 
 void check_complete(const Options& options) {
-  if (options.scene.empty()) validation::refuse(command_line, "--scene", "", "the path of a scene's URDF");
+  if (options.scene.empty()) validation::refuse_missing(command_line, "--scene", "path of a URDF scene");
   if (options.motions.empty() == options.bag.empty()) {
-    if (options.bag.empty()) validation::refuse(command_line, "--motion, --bag", "", "one of the two");
+    if (options.bag.empty()) validation::refuse_missing(command_line, "--motion or --bag", "path of the recorded hand");
     throw validation::InputError(std::string(command_line) + ": --motion, --bag: cannot be given together");
   }
   if (options.bag.empty() && !(options.parent + options.child).empty())
     throw validation::InputError(std::string(command_line) +
                                  ": --parent, --child: can only be given together with --bag");
-  if (options.out.empty()) validation::refuse(command_line, "--out", "", "the path of the CSV file to write");
+  if (options.out.empty()) validation::refuse_missing(command_line, "--out", "path of the CSV file to write");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ YAML::Node to_yaml(const XmlRpc::XmlRpcValue& value, const std::string& key) {
       for (auto& entry : copy) node[entry.first] = to_yaml(entry.second, entry.first);
       break;
     default:
-      validation::refuse("parameter server", key, "a date or binary value", "a bool, number, string, list or map");
+      validation::refuse("parameter server", key, "a bool, number, string, list or map, got a date or binary value");
   }
   return node;
 }

@@ -60,8 +60,7 @@ void WrenchInput::on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& 
       frame == sensor.tip_frame ? motion::ExternalWrench::Axes::tip : motion::ExternalWrench::Axes::world;
   try {
     if (frame != sensor.tip_frame && frame != world_frame_) {
-      validation::refuse(sensor.topic, "header.frame_id", "\"" + frame + "\"",
-                         world_frame_ + " or " + sensor.tip_frame);
+      validation::refuse(sensor.topic, "header.frame_id", frame, world_frame_ + " or " + sensor.tip_frame);
     }
   } catch (const validation::InputError& error) {
     return rejections_.add("unknown frame", error.what());

@@ -1,7 +1,7 @@
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 
 #include "constants.h"
-#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/number_rule.h"
 #include "spring_workbench/validation/one_line.h"
 
 namespace spring_workbench::manipulation {
@@ -65,7 +65,7 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
   std::string text;
   try {
     if (!from_file && kept.getType() != XmlRpc::XmlRpcValue::TypeString)
-      throw validation::InputError(where + ": must be a text that this node wrote");
+      validation::refuse("", where, "a text that this node wrote");
     text = from_file ? file_->read() : static_cast<std::string>(kept);
     if (text.empty()) return;
     on_master_.resume(text, where, scene_roots);

@@ -19,18 +19,18 @@ void take_frame(YAML::Node& map, const std::string& where, const std::string& ke
   if (!node) return;
   value = config::read_string(node, where, key);
   if (value.empty() ? !may_be_empty : value.front() == '/')
-    validation::refuse(where, key, "\"" + value + "\"", "a frame name without a leading /");
+    validation::refuse(where, key, value, "a frame name without a leading /");
 }
 
 }  // namespace
 
 ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters, const std::string& where) {
-  if (!parameters.IsMap()) throw validation::InputError(where + ": must be a map of parameters");
+  if (!parameters.IsMap()) validation::refuse("", where, "a map of parameters");
   YAML::Node rest(YAML::NodeType::Map);
   for (const auto& entry : parameters) rest[entry.first] = entry.second;
   ManipulationParameters result;
   const YAML::Node scene = ros_common::take(rest, "scene");
-  if (!scene) validation::refuse(where, "scene", "", "a URDF's path or package:// URI");
+  if (!scene) validation::refuse_missing(where, "scene", "path or package:// URI of a URDF");
   result.scene = config::read_string(scene, where, "scene");
   if (const YAML::Node roots = ros_common::take(rest, "scene_roots")) {
     if (!roots.IsSequence()) validation::refuse(where, "scene_roots", YAML::Dump(roots), "a list of folders");

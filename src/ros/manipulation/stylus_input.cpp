@@ -9,6 +9,7 @@
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/publishing.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::manipulation {
 namespace {
@@ -89,7 +90,7 @@ bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
   if (!sender_.accepts(sender, ros_common::local_time().attended)) {
     statistics_.other_sender = sender;
-    rejections_.add(another_sender, "tf: " + frame_ + ": must have one sender, " + sender_.name() + ", but " + sender +
+    rejections_.add(another_sender, "tf: " + frame_ + ": expected one sender, " + sender_.name() + ", but " + sender +
                                         " also sends it");
     return false;
   }
@@ -129,8 +130,9 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
   const std::string& parent = transform.header.frame_id;
   const std::optional<RigidTransform> X_WP = static_frames_.in_world(parent);
   if (!X_WP) {
-    rejections_.add("unknown frame", place_of(transform) + "frame_id: must be " + parameters_.workbench_frame +
-                                         " or tied to it on /tf_static, got " + frame(parent));
+    const std::string rule = parameters_.workbench_frame + ", or tied to it on /tf_static";
+    rejections_.add("unknown frame",
+                    place_of(transform) + validation::invalid_value("", "frame_id", frame(parent), rule));
     return false;
   }
   if (events_.is_full()) {
@@ -147,7 +149,7 @@ void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform,
                                double age) {
   statistics_.newest_offer_age = age;
   std::ostringstream line;
-  line << place_of(transform) << "stamp: must be within max_age = " << parameters_.max_age
+  line << place_of(transform) << "stamp: expected one within max_age = " << parameters_.max_age
        << " s of now and continue its stream (a bag needs --clock and use_sim_time), got an age of " << age << " s";
   rejections_.add(reason, line.str());
 }
@@ -164,8 +166,7 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   // Without a clock the message has no time: an epoch that it starts would soon be replaced by the true one.
   if (ros::Time::now().isZero()) return rejections_.add("no clock", joy_ + ": no time on /clock yet");
-  if (message->buttons.empty())
-    return rejections_.add("no buttons", joy_ + ": buttons: missing; give at least one button");
+  if (message->buttons.empty()) return rejections_.add("no buttons", joy_ + ": buttons: expected at least one button");
   if (events_.is_full()) return rejections_.add(loop_stalled, joy_ + ": the loop is stalled and accepts no input");
   const std::int64_t stamp = ros_common::nanoseconds_of(message->header.stamp);
   if (!ros::Time::isSimTime())

@@ -108,10 +108,11 @@ std::optional<Options> parse_options(int argc, char** argv) {
     return std::nullopt;
   }
   options.largest_residual = 1e-3 * largest_residual;
-  if (options.out.empty()) validation::refuse(command_line, "--out", "", "the path of the file to write");
-  if (options.pivot == !options.landmarks.empty()) {
-    validation::refuse(command_line, "--landmarks", options.pivot ? "both" : "", "one of --landmarks and --pivot");
-  }
+  if (options.out.empty()) validation::refuse_missing(command_line, "--out", "path of the file to write");
+  if (options.pivot && !options.landmarks.empty())
+    throw validation::InputError(validation::prefix(command_line, "--landmarks, --pivot") + "cannot be given together");
+  if (!options.pivot && options.landmarks.empty())
+    validation::refuse_missing(command_line, "--landmarks or --pivot", "what to register");
   return options;
 }
 

@@ -10,6 +10,7 @@
 #include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/motion/pose_follower.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::tracker_driver {
 namespace {
@@ -111,9 +112,9 @@ class InteractiveMarkerSource final : public MessageSource {
   void on_feedback(const Feedback& feedback) {
     if (feedback->event_type != InteractiveMarkerFeedback::POSE_UPDATE) return;
     if (feedback->header.frame_id != workbench_frame_) {
-      return refuse_pose("frame_id: must be " + workbench_frame_ + ", got " + feedback->header.frame_id);
+      return refuse_pose(validation::invalid_value("", "frame_id", feedback->header.frame_id, workbench_frame_));
     }
-    if (!is_pose(feedback->pose)) return refuse_pose("pose: must be finite, with a quaternion of length 1");
+    if (!is_pose(feedback->pose)) return refuse_pose("pose: expected a finite pose with a quaternion of length 1");
     follower_.set_goal(ros_common::from_message(feedback->pose));
     ++drags_;
   }

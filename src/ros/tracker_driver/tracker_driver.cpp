@@ -83,7 +83,7 @@ class TrackerDriver {
     device_ = open_device(node, private_node);
     if (device_) return;
     const auto first = open()->next();
-    if (!first) throw validation::InputError(parameters_.file + ": no samples; give at least one");
+    if (!first) validation::refuse("", parameters_.file, "at least one sample");
     if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
   }
 

@@ -42,7 +42,7 @@ std::vector<int> read_head_stations(const YAML::Node& value, const std::string& 
     if (station == 1 || std::count(stations.begin(), stations.end(), station) == 0 ||
         std::count(heads.begin(), heads.end(), station) > 0) {
       validation::refuse(where, "head_stations", std::to_string(station),
-                         "in stations, other than 1 (the stylus), and without duplicates");
+                         "one of stations, other than 1 (the stylus), and without duplicates");
     }
     heads.push_back(station);
   }
@@ -75,7 +75,8 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   };
   const auto text = [&](const char* key, const char* what, std::string& value) {
     if (parameters[key]) value = config::read_string(parameters[key], where, key);
-    if (value.empty()) validation::refuse(where, key, "", what);
+    if (value.empty() && !parameters[key]) validation::refuse_missing(where, key, what);
+    if (value.empty()) validation::refuse(where, key, value, what);
   };
   if (is_motion) text("file", "a motion file", result.file);
   if (result.source == "operator") {
@@ -103,7 +104,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   number("latency", validation::between(0.0, 1.0), result.latency);
   if (parameters["offset"]) result.X_BT = config::read_pose(parameters["offset"], where, "offset");
   if (parameters["start"]) {
-    if (parameters["offset"]) throw validation::InputError(where + ": start: must not be given together with offset");
+    if (parameters["offset"]) throw validation::InputError(where + ": start: cannot be given together with offset");
     result.X_BS_first = config::read_pose(parameters["start"], where, "start");
   }
   return result;

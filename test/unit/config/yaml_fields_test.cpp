@@ -57,9 +57,11 @@ TEST(NumberRule, AllowsItsRangeAndNeverNan) {
 }
 
 TEST(NumberRule, SaysWhatItAllows) {
-  EXPECT_EQ(validation::any_number().text(), "a finite number");
-  EXPECT_EQ(validation::positive().text(), "a finite number > 0");
-  EXPECT_EQ(validation::not_negative().text(), "a finite number >= 0");
+  EXPECT_EQ(validation::any_number().text(), "a number");
+  EXPECT_EQ(validation::positive().text(), "a number > 0");
+  EXPECT_EQ(validation::not_negative().text(), "a number >= 0");
+  EXPECT_EQ(validation::positive().text(infinity), "a finite number > 0") << "if infinity was given";
+  EXPECT_EQ(validation::positive_or_infinite().text(), "a number > 0, or .inf");
   EXPECT_EQ(validation::between(1e-6, 1.0).text(), "a number between 1e-6 and 1");
   EXPECT_EQ(validation::between(-1e9, 123456.789).text(), "a number between -1e9 and 123456.789");
 }
@@ -79,30 +81,47 @@ TEST(YamlFields, RefuseWithPlaceKeyValueAndRule) {
     const YAML::Node map = node("first: 1\nkey: " + text);
     const std::string message =
         message_of([&] { read_number(map["key"], "file.yaml", "some.key", validation::positive()); });
-    EXPECT_TRUE(names(message, {"file.yaml:2: some.key: must be a finite number > 0, got " + text})) << text;
+    const std::string number = text.find('.') != text.npos ? "a finite number" : "a number";
+    EXPECT_EQ(message, "file.yaml:2: some.key: invalid value '" + text + "': expected " + number + " > 0");
   }
   for (const std::string text : {"''", "~", ""}) {
     const YAML::Node map = node("first: 1\nkey: " + text);
     EXPECT_EQ(message_of([&] { read_number(map["key"], "file.yaml", "some.key", validation::positive()); }),
-              "file.yaml:2: some.key: missing; give a finite number > 0");
+              "file.yaml:2: some.key: invalid value '': expected a number > 0");
   }
   EXPECT_TRUE(
       names(message_of([] { validation::check_number("command line", "step", std::nan(""), validation::positive()); }),
-            {"command line: step: must be a finite number > 0, got nan"}));
+            {"command line: step: invalid value 'nan': expected a finite number > 0"}));
   EXPECT_NO_THROW(validation::check_number("command line", "step", 1.0, validation::positive()));
 }
 
 TEST(YamlFields, AFieldThatIsNotThereIsRefusedNotACrash) {
   const YAML::Node map = node("a: 1");
   const YAML::Node& constant = map;
-  EXPECT_NE(message_of([&] { read_number(constant["b"], "f", "b", validation::any_number()); }), "");
+  EXPECT_EQ(message_of([&] { read_number(constant["b"], "f", "b", validation::any_number()); }),
+            "f: missing required key b: a number");
   EXPECT_NE(message_of([&] { read_integer(constant["b"], "f", "b", 0, 1); }), "");
   EXPECT_NE(message_of([&] { read_bool(constant["b"], "f", "b"); }), "");
   EXPECT_NE(message_of([&] { read_string(constant["b"], "f", "b"); }), "");
   EXPECT_NE(message_of([&] { read_choice(constant["b"], "f", "b", {"x"}); }), "");
   EXPECT_NE(message_of([&] { read_numbers(constant["b"], "f", "b", 2); }), "");
   EXPECT_NE(message_of([&] { read_pose(constant["b"], "f", "b"); }), "");
-  EXPECT_NE(message_of([&] { check_keys(constant["b"], "f", "b.", {"x"}); }), "");
+  EXPECT_EQ(message_of([&] { check_keys(constant["b"], "f", "b.", {"x"}); }), "f: missing required key b: a map");
+}
+
+TEST(YamlFields, AMissingKeyIsRefusedWithTheLineOfItsMap) {
+  const YAML::Node map = node("first: 1\ntop:\n  a: true");
+  EXPECT_TRUE(read_required(map["top"], "f", "top.", "a", read_bool));
+  EXPECT_EQ(message_of([&] { read_required(map["top"], "f", "top.", "b", read_bool); }),
+            "f:3: missing required key top.b: true or false");
+  EXPECT_EQ(message_of([&] { read_required(YAML::Node(YAML::NodeType::Map), "f", "", "b", read_bool); }),
+            "f: missing required key b: true or false");
+}
+
+TEST(YamlFields, WhatIsNoMapIsRefusedWithItsKey) {
+  const YAML::Node map = node("first: 1\nobjects: {box: 3}");
+  EXPECT_EQ(message_of([&] { check_keys(map["objects"]["box"], "f", "objects.box.", {}); }),
+            "f:2: objects.box: invalid value '3': expected a map");
 }
 
 TEST(YamlFields, IntegersStayIntegers) {
@@ -118,7 +137,8 @@ TEST(YamlFields, BoolsStringsAndChoices) {
   EXPECT_FALSE(read_bool(node("off"), "f", "k"));
   EXPECT_TRUE(names(message_of([] { read_bool(node("2"), "f", "k"); }), {"2", "true or false"}));
   EXPECT_EQ(read_string(node("a b"), "f", "k"), "a b");
-  EXPECT_TRUE(names(message_of([] { read_string(node("[a]"), "f", "k"); }), {"k: must be a string, got [a]"}));
+  EXPECT_TRUE(
+      names(message_of([] { read_string(node("[a]"), "f", "k"); }), {"k: invalid value '[a]': expected a string"}));
   EXPECT_EQ(read_choice(node("stop"), "f", "k", {"none", "stop"}), "stop");
   EXPECT_TRUE(names(message_of([] { read_choice(node("halt"), "f", "k", {"none", "stop"}); }), {"halt", "none, stop"}));
 }
@@ -180,8 +200,8 @@ TEST(LoadYamlFile, ReportsFileAndLineOfInvalidYaml) {
   EXPECT_EQ(load_yaml_file(folder.path("good.yaml"))["a"].as<int>(), 1);
   EXPECT_TRUE(load_yaml_file(folder.path("empty.yaml")).IsMap());
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("bad.yaml")); }), {"bad.yaml:", "not YAML"}));
-  EXPECT_TRUE(
-      names(message_of([&] { load_yaml_file(folder.path("nothing.yaml")); }), {"nothing.yaml", "cannot be read"}));
+  EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("nothing.yaml")); }),
+                    {"nothing.yaml: expected a readable YAML file"}));
   EXPECT_NE(message_of([&] { load_yaml_file(folder.path("")); }), "") << "a folder";
 }
 

@@ -231,7 +231,7 @@ TEST(SampleGate, ComplaintsNameFieldValueAndRuleInOneLine) {
                                                                      {GateResult::turns_too_fast, "rotation", "0.5"},
                                                                      {GateResult::out_of_view, "position", "7.25"}}) {
     const std::string line = complaint(result, bad, settings);
-    for (const std::string& word : {field, value, std::string("must be")})
+    for (const std::string& word : {field, value, std::string("': expected ")})
       EXPECT_NE(line.find(word), line.npos) << line;
     EXPECT_EQ(line.find('\n'), line.npos);
   }

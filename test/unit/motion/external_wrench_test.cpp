@@ -92,10 +92,12 @@ TEST(WrenchTrack, RefusesImplausibleWrenchesAndIsUnchanged) {
   for (const double bad : {nan, never, -never, 1.001e5, -1.001e5}) {
     ExternalWrench wrench = sample(2.0, 0.0);
     wrench.wrench.force.y() = bad;
-    refused(wrench, "force.y: must be a number between -100000 and 100000, got ");
+    refused(wrench, "force.y: invalid value '");
+    refused(wrench, "': expected a number between -100000 and 100000");
     wrench = sample(2.0, 0.0);
     wrench.wrench.moment.z() = bad;
-    refused(wrench, "torque.z: must be a number between -100000 and 100000, got ");
+    refused(wrench, "torque.z: invalid value '");
+    refused(wrench, "': expected a number between -100000 and 100000");
   }
   for (const double bad : {nan, never, 2e12}) refused(sample(bad, 1.0), "t: ");
   ExternalWrench wrench = sample(2.0, 1.0);

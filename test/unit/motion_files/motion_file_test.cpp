@@ -95,34 +95,34 @@ TEST(MotionFile, BadLinesNameFileLineFieldValueAndRule) {
     const char* expected;  // after "file:3: "
   };
   const Bad table[] = {
-      {"abc 0 0 0 0 0 0 1", "t: must be a number between -1e12 and 1e12, got abc"},
-      {"nan 0 0 0 0 0 0 1", "t: must be a number between -1e12 and 1e12, got nan"},
-      {"1 0 inf 0 0 0 0 1", "y: must be a number between -1e9 and 1e9, got inf"},
-      {"1 0 0 1e400 0 0 0 1", "z: must be a number between -1e9 and 1e9, got 1e400"},
-      {"1 2e9 0 0 0 0 0 1", "x: must be a number between -1e9 and 1e9, got 2e9"},
-      {"1 0,5 0 0 0 0 0 1", "x: must be a number between -1e9 and 1e9, got 0,5"},
-      {"1 0.5.1 0 0 0 0 0 1", "x: must be a number between -1e9 and 1e9, got 0.5.1"},
-      {"1 0 0 0 NaN 0 0 1", "qx: must be a number between -2 and 2, got NaN"},
-      {"1 0 0 0 0 0 0 0", "norm of qx qy qz qw: must be a number between 0.5 and 2, got 0"},
-      {"1 0 0 0 0 0 0 0.1", "norm of qx qy qz qw: must be a number between 0.5 and 2, got 0.1"},
-      {"1 0 0 0 2 2 2 2", "norm of qx qy qz qw: must be a number between 0.5 and 2, got 4"},
-      {"1 0 0 0 0 0 1", "line: must be t x y z qx qy qz qw [button], got 7 fields"},
-      {"1 0 0 0 0 0 0 1 1 1", "line: must be t x y z qx qy qz qw [button], got 10 fields"},
-      {"1 0 0 0 0 0 0 1 1", "line: must be 8 fields, as in the lines before, got 9 fields"},
+      {"abc 0 0 0 0 0 0 1", "t: invalid value 'abc': expected a number between -1e12 and 1e12"},
+      {"nan 0 0 0 0 0 0 1", "t: invalid value 'nan': expected a number between -1e12 and 1e12"},
+      {"1 0 inf 0 0 0 0 1", "y: invalid value 'inf': expected a number between -1e9 and 1e9"},
+      {"1 0 0 1e400 0 0 0 1", "z: invalid value '1e400': expected a number between -1e9 and 1e9"},
+      {"1 2e9 0 0 0 0 0 1", "x: invalid value '2e9': expected a number between -1e9 and 1e9"},
+      {"1 0,5 0 0 0 0 0 1", "x: invalid value '0,5': expected a number between -1e9 and 1e9"},
+      {"1 0.5.1 0 0 0 0 0 1", "x: invalid value '0.5.1': expected a number between -1e9 and 1e9"},
+      {"1 0 0 0 NaN 0 0 1", "qx: invalid value 'NaN': expected a number between -2 and 2"},
+      {"1 0 0 0 0 0 0 0", "norm of qx qy qz qw: invalid value '0': expected a number between 0.5 and 2"},
+      {"1 0 0 0 0 0 0 0.1", "norm of qx qy qz qw: invalid value '0.1': expected a number between 0.5 and 2"},
+      {"1 0 0 0 2 2 2 2", "norm of qx qy qz qw: invalid value '4': expected a number between 0.5 and 2"},
+      {"1 0 0 0 0 0 1", "line: expected t x y z qx qy qz qw [button], got 7 fields"},
+      {"1 0 0 0 0 0 0 1 1 1", "line: expected t x y z qx qy qz qw [button], got 10 fields"},
+      {"1 0 0 0 0 0 0 1 1", "line: expected 8 fields, as in the lines before, got 9"},
   };
   for (const Bad& bad : table) {
     const std::string text = std::string("# comment\n0 0 0 0 0 0 0 1\n") + bad.line + "\n2 0 0 0 0 0 0 1\n";
     const std::string start = std::string(":3: ") + bad.expected;
     EXPECT_EQ(refusal(text).substr(0, start.size()), start);
   }
-  EXPECT_EQ(refusal("0 0 0 0 0 0 0 1 0\n1 0 0 0 0 0 0 1 2\n"), ":2: button: must be 0 or 1, got 2");
+  EXPECT_EQ(refusal("0 0 0 0 0 0 0 1 0\n1 0 0 0 0 0 0 1 2\n"), ":2: button: invalid value '2': expected 0 or 1");
 }
 
 TEST(MotionFile, AFileWithoutSamplesIsRefused) {
   for (const char* text : {"", "\n\n", "# only a comment"}) {
-    EXPECT_EQ(refusal(text).rfind(": no samples", 0), 0u);
+    EXPECT_EQ(refusal(text).rfind(": expected lines of t x y z", 0), 0u);
   }
-  EXPECT_EQ(refusal_of_file("/nonexistent/a.tum").rfind("/nonexistent/a.tum: cannot be read", 0), 0u);
+  EXPECT_EQ(refusal_of_file("/nonexistent/a.tum").rfind("/nonexistent/a.tum: expected a readable", 0), 0u);
   EXPECT_EQ(refusal_of_file("/tmp").rfind("/tmp: ", 0), 0u) << "a folder is no file";
 }
 

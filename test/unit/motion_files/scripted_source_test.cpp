@@ -76,20 +76,22 @@ TEST(ScriptedSource, BadScriptsNameFileLineFieldAndRule) {
     const char* expected;
   };
   const Bad table[] = {
-      {"rate: 0\nwaypoints: [{t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}]", ":1: rate: must be a number between"},
+      {"rate: 0\nwaypoints: [{t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}]",
+       ":1: rate: invalid value '0': expected a number between"},
       {"rate: 50\nwaypoint: []", ":2: waypoint: unknown key; known keys are rate, waypoints"},
-      {"rate: 50", ": waypoints: must be a list"},
-      {"rate: 50\nwaypoints: []", ": waypoints: must be a list"},
-      {"rate: 50\nwaypoints: 3", ": waypoints: must be a list"},
+      {"rate: 50", ":1: missing required key waypoints: a list"},
+      {"rate: 50\nwaypoints: []", ":2: waypoints: expected a list"},
+      {"rate: 50\nwaypoints: 3", ":2: waypoints: expected a list"},
       {"rate: 50\nwaypoints: [3]", ":2: waypoints[0]"},
-      {"waypoints: [{t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}]", ": rate: missing; give"},
-      {"rate: 50\nwaypoints:\n - {t: .nan, pose: [0, 0, 0, 0, 0, 0, 1]}", ":3: waypoints[0].t: must be"},
+      {"waypoints: [{t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}]", ":1: missing required key rate: a number"},
+      {"rate: 50\nwaypoints:\n - {t: .nan, pose: [0, 0, 0, 0, 0, 0, 1]}",
+       ":3: waypoints[0].t: invalid value '.nan': expected"},
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 0]}", ":3: waypoints[0].pose: "},
-      {"rate: 50\nwaypoints:\n - {t: 0}", ": waypoints[0].pose: missing; give"},
+      {"rate: 50\nwaypoints:\n - {t: 0}", ":3: missing required key waypoints[0].pose: 7 finite numbers"},
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1], button: 3}",
-       ":3: waypoints[0].button: must be true or false, got 3"},
+       ":3: waypoints[0].button: invalid value '3': expected true or false"},
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}",
-       ":4: waypoints[1].t: must be later than"},
+       ":4: waypoints[1].t: invalid value '0': expected later than"},
       {"rate: [", ":1: not YAML"},
   };
   const test_support::TemporaryFolder folder;

@@ -148,15 +148,16 @@ TEST(SavedScenes, WhereTheyMayNotBeTheyAreRefused) {
     }
     return "";
   };
+  const auto invalid = [](const std::string& path) { return "path: invalid value '" + path + "': expected "; };
   EXPECT_EQ(refusal(folder.path("good.urdf")), "");
   const std::string outside = elsewhere.path("box.urdf");
-  EXPECT_EQ(refusal(outside),
-            "path: must be in a ROS package or in one of the folders " + folder.path("") + ", got " + outside);
-  EXPECT_EQ(refusal(folder.path("../box.urdf")).substr(0, 30), "path: must be in a ROS package");
-  const std::string rule = "path: must be a package:// URI or an absolute path, in a folder that exists";
-  EXPECT_EQ(refusal("box.urdf"), rule + ", got box.urdf");
-  EXPECT_EQ(refusal(folder.path("none/box.urdf")), rule + ", got " + folder.path("none/box.urdf"));
-  EXPECT_EQ(refusal(folder.path("box.xml")), "path: must be one that ends in .urdf, got " + folder.path("box.xml"));
+  EXPECT_EQ(refusal(outside), invalid(outside) + "a file in a ROS package or in one of the folders " + folder.path(""));
+  const std::string above = folder.path("../box.urdf"), in_package = invalid(above) + "a file in a ROS package";
+  EXPECT_EQ(refusal(above).substr(0, in_package.size()), in_package);
+  const std::string rule = "a package:// URI or an absolute path, in a folder that exists";
+  EXPECT_EQ(refusal("box.urdf"), invalid("box.urdf") + rule);
+  EXPECT_EQ(refusal(folder.path("none/box.urdf")), invalid(folder.path("none/box.urdf")) + rule);
+  EXPECT_EQ(refusal(folder.path("box.xml")), invalid(folder.path("box.xml")) + "a path that ends in .urdf");
   fs::create_directory(folder.path("taken.yaml"));
   EXPECT_EQ(refusal(folder.path("taken.urdf")), folder.path("taken.yaml") + ": cannot be written: it is a folder");
   EXPECT_FALSE(fs::exists(folder.path("taken.urdf")));

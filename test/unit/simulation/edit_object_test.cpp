@@ -195,29 +195,27 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
     EXPECT_EQ(told.substr(0, message.size()), message) << told;
   };
   const std::string objects = "a movable object of the scene (held, below, above)";
-  expect(removal("wall"), "name: must be " + objects + ", got wall");
-  expect(removal("none"), "name: must be " + objects + ", got none");
-  expect(new_mass("held", nan), "mass: must be a number between 0 and 1e12, got nan");
-  expect(new_mass("held", -1.0), "mass: must be a number between 0 and 1e12, got -1");
-  expect(new_friction("held", -0.1), "friction: must be a finite number >= 0, got -0.1");
+  expect(removal("wall"), "name: invalid value 'wall': expected " + objects);
+  expect(removal("none"), "name: invalid value 'none': expected " + objects);
+  expect(new_mass("held", nan), "mass: invalid value 'nan': expected a number between 0 and 1e12");
+  expect(new_mass("held", -1.0), "mass: invalid value '-1': expected a number between 0 and 1e12");
+  expect(new_friction("held", -0.1), "friction: invalid value '-0.1': expected a number >= 0");
   expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))),
-         "name: must be an object that no tool holds or pushes, got held, which a tool holds or pushes");
-  expect({Action::move, "below", "", std::nullopt}, "pose: missing");
-  expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "pose: must be a finite pose");
-  expect(addition("wall", std::nullopt), "name: must be a new name");
-  expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt}, "urdf: must be an existing file");
+         "name: invalid value 'held': expected an object that no tool holds or pushes");
+  expect({Action::move, "below", "", std::nullopt}, "pose: expected a pose to move to");
+  expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "pose: expected a finite pose");
+  expect(addition("wall", std::nullopt), "name: invalid value 'wall': expected a new name");
+  expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt},
+         "urdf: invalid value '" + folder_.path("none.urdf") + "': expected an existing file");
   expect({static_cast<Action>(77), "held", "", std::nullopt},
-         "action: must be one of add, move, remove, mass, friction");
+         "action: invalid value '77': expected one of add, move, remove, mass, friction");
   if (GetParam() == ContactMode::none) return;
   expect(move_to("below", at(Vector3d(2.0, 0.0, 0.3))),
-         "pose: must be a pose at which below overlaps no other body by more than 0.1 mm, got one at "
-         "which it overlaps wall");
+         "pose: expected one at which below overlaps no other body by more than 0.1 mm; it overlaps wall");
   expect(addition("brick", at(Vector3d(-1.0, 0.0, 0.049))),
-         "pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
-         "which it overlaps the workbench");
+         "pose: expected one at which brick overlaps no other body by more than 0.1 mm; it overlaps the workbench");
   expect(addition("brick", object(s, "held").X_WO),
-         "pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
-         "which it overlaps");
+         "pose: expected one at which brick overlaps no other body by more than 0.1 mm; it overlaps");
 }
 
 TEST(EditedFriction, DecidesHowFarABoxSlides) {

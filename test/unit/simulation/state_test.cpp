@@ -259,18 +259,18 @@ TEST(State, OfAnotherSceneIsRefused) {
   };
   const scene::Scene same = boxes(scene::ContactMode::stop);
   EXPECT_EQ(refused(Simulation(renamed, {}).save()),
-            "state: must be one with bodies a b c d wall, got one with bodies z b c d wall");
+            "state: expected one with bodies a b c d wall, got one with bodies z b c d wall");
   EXPECT_EQ(refused(Simulation(fewer, {}).save()),
-            "state: must be one with bodies a b c d wall, got one with bodies a b c d");
+            "state: expected one with bodies a b c d wall, got one with bodies a b c d");
   EXPECT_EQ(refused(Simulation(boxes(scene::ContactMode::none), {}).save()),
-            "state: must be one with contact stop, got one with contact none");
+            "state: expected one with contact stop, got one with contact none");
   EXPECT_EQ(refused(Simulation(same, other_shape).save()),
-            "state: must be one with shape linear, got one with shape bushing");
-  EXPECT_EQ(refused(Simulation(same, three).save()), "state: must be one with 2 styluses, got one with 3 styluses");
-  EXPECT_EQ(refused(SimulationState()), "state: must be one with contact stop, got one with nothing saved");
+            "state: expected one with shape linear, got one with shape bushing");
+  EXPECT_EQ(refused(Simulation(same, three).save()), "state: expected one with 2 styluses, got one with 3 styluses");
+  EXPECT_EQ(refused(SimulationState()), "state: expected one with contact stop, got one with nothing saved");
   std::string more = serialise(s.save());
   more.insert(more.find("wall\"") + 4, "\\ndoors");
-  EXPECT_EQ(refused(parse_state(more)), "state: must be one without it, got doors");
+  EXPECT_EQ(refused(parse_state(more)), "state: expected one without doors");
   EXPECT_EQ(s.state_hash(), before);
 }
 

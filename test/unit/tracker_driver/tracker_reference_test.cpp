@@ -102,7 +102,8 @@ TEST(TrackerParameters, InputSettingsAreReportedAsThoseOfManipulation) {
 
 TEST(TrackerParameters, SourcesAreCalledAsTheLaunchFilesCallThem) {
   EXPECT_EQ(refusal_of("{source: rat}"),
-            "/tracker_driver:1: source: must be one of mouse, joy, fastrak, operator, scripted, motion_file, got rat");
+            "/tracker_driver:1: source: invalid value 'rat': expected one of mouse, joy, fastrak, operator, scripted, "
+            "motion_file");
   for (const char* source : {"mouse", "interactive_marker"})
     EXPECT_EQ(read_tracker_parameters(YAML::Load("{source: " + std::string(source) + "}"), "").source, "mouse");
 }

@@ -186,7 +186,7 @@ class BagReader {
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
     validation::refuse(path_, "transform", parent_ + " -> " + child_,
-                       "in the bag, which has " + (there.empty() ? "none" : validation::join(there)));
+                       "one in the bag, which has " + (there.empty() ? "none" : validation::join(there)));
   }
 
   std::string path_, parent_, child_;
