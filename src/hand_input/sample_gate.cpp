@@ -67,9 +67,11 @@ std::string complaint(GateResult result, const RawSample& sample, const InputSet
     case GateResult::too_close:
       return invalid("stamp", "at least a quarter of the usual sample interval after the last one", stamp);
     case GateResult::too_fast:
-      return invalid("position", "one reached at max_speed = " + text(settings.max_speed) + " m/s or less", position);
+      return invalid("position", "one within reach of the last at max_speed = " + text(settings.max_speed) + " m/s",
+                     position);
     case GateResult::turns_too_fast:
-      return invalid("rotation", "one reached at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s or less",
+      return invalid("rotation",
+                     "one within reach of the last at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s",
                      rotation);
     case GateResult::out_of_view:
       return invalid("position",

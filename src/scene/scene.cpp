@@ -109,14 +109,11 @@ class SceneLoader {
   void check_names() const {
     std::vector<std::string> names;
     for (const Body& body : scene_.bodies) names.push_back(body.name);
-    const std::string rule = "body of the scene (" + validation::join(names) + ")";
+    const std::string rule = "a body of the scene (" + validation::join(names) + ")";
     for (const auto& [name, entry] : file_.objects) {
-      if (!find_body(scene_, name)) validation::refuse(entry.where, "objects", name, "a " + rule);
+      if (!find_body(scene_, name)) validation::refuse(entry.where, "objects", name, rule);
     }
-    for (const auto& [name, where] : file_.targets) {
-      const auto body = find_body(scene_, name);
-      if (!body || !scene_.bodies[*body].movable) validation::refuse(where, "targets", name, "a movable " + rule);
-    }
+    for (const auto& [name, where] : file_.targets) movable_body(scene_, name, where, "targets");
   }
 
   std::string path_;

@@ -89,9 +89,10 @@ void check_origin(const std::string& saved, const std::string& present) {
   std::istringstream of_saved(saved), of_present(present);
   for (std::string was, is; std::getline(of_present, is);) {
     if (!std::getline(of_saved, was)) was = "nothing saved";
-    if (was != is) validation::refuse("", "state", "one with " + is + ", got one with " + was);
+    if (was != is) validation::refuse("", "state", "that of a simulation with " + is + ", got " + was);
   }
-  if (std::string more; std::getline(of_saved, more)) validation::refuse("", "state", "one without " + more);
+  if (std::string more; std::getline(of_saved, more))
+    validation::refuse("", "state", "that of a simulation without " + more);
 }
 
 /// Returns whether this change would change the fork.

@@ -259,18 +259,19 @@ TEST(State, OfAnotherSceneIsRefused) {
   };
   const scene::Scene same = boxes(scene::ContactMode::stop);
   EXPECT_EQ(refused(Simulation(renamed, {}).save()),
-            "state: expected one with bodies a b c d wall, got one with bodies z b c d wall");
+            "state: expected that of a simulation with bodies a b c d wall, got bodies z b c d wall");
   EXPECT_EQ(refused(Simulation(fewer, {}).save()),
-            "state: expected one with bodies a b c d wall, got one with bodies a b c d");
+            "state: expected that of a simulation with bodies a b c d wall, got bodies a b c d");
   EXPECT_EQ(refused(Simulation(boxes(scene::ContactMode::none), {}).save()),
-            "state: expected one with contact stop, got one with contact none");
+            "state: expected that of a simulation with contact stop, got contact none");
   EXPECT_EQ(refused(Simulation(same, other_shape).save()),
-            "state: expected one with shape linear, got one with shape bushing");
-  EXPECT_EQ(refused(Simulation(same, three).save()), "state: expected one with 2 styluses, got one with 3 styluses");
-  EXPECT_EQ(refused(SimulationState()), "state: expected one with contact stop, got one with nothing saved");
+            "state: expected that of a simulation with shape linear, got shape bushing");
+  EXPECT_EQ(refused(Simulation(same, three).save()),
+            "state: expected that of a simulation with 2 styluses, got 3 styluses");
+  EXPECT_EQ(refused(SimulationState()), "state: expected that of a simulation with contact stop, got nothing saved");
   std::string more = serialise(s.save());
   more.insert(more.find("wall\"") + 4, "\\ndoors");
-  EXPECT_EQ(refused(parse_state(more)), "state: expected one without doors");
+  EXPECT_EQ(refused(parse_state(more)), "state: expected that of a simulation without doors");
   EXPECT_EQ(s.state_hash(), before);
 }
 
