@@ -24,10 +24,11 @@ struct ToolState {
   std::string touched;      ///< the body that the probe touches, "workbench" for the bench; otherwise empty
   rod::ShapeKind shape = rod::ShapeKind::linear;
   dynamics::IntegratorKind integrator = dynamics::IntegratorKind::exponential;
-  rod::ForkDofs dofs;                                ///< DOFs switched on
-  double length = 0.0;                               ///< rest length [m]
-  rod::PerDof stiffness;                             ///< [N/m, N/m, N·m/rad]
-  rod::PerDof damping_ratio;                         ///< of each DOF
+  rod::ForkDofs dofs;                                      ///< DOFs switched on
+  double length = 0.0;                                     ///< rest length [m]
+  rod::PerDof stiffness;                                   ///< [N/m, N/m, N·m/rad]
+  rod::PerDof damping_ratio, damping_coefficient;          ///< [–]; [N·s/m, N·s/m, N·m·s/rad]
+  rod::DampingLaw damping_law = rod::DampingLaw::per_dof;  ///< which of them acts
   rod::StrainVector strain;                          ///< all coordinates of the shape model; zero while nothing is held
   double stretch = 0.0;                              ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
