@@ -53,7 +53,7 @@ class CellRun {
   bool advance(double t) {
     const simulation::AdvanceReport report = simulation_.advance(t);
     outcome_.refused += report.steps_rejected;
-    outcome_.steps += report.steps;
+    outcome_.steps += static_cast<int>(report.steps);
     outcome_.stops += report.stops;
     outcome_.fallback += report.steps_fallback;
     outcome_.substeps += report.substeps;

@@ -25,17 +25,23 @@ rod::PerDofChange<T> per_dof(const py::object& values, const std::string& key) {
   }
 }
 
-void change(Simulation& of, const py::object& stiffness, const py::object& damping_ratio, const py::object& dofs,
-            const std::optional<std::string>& integrator, std::optional<double> step, std::optional<double> tolerance) {
+simulation::ChangeReport change(Simulation& of, const py::object& stiffness, const py::object& damping_ratio,
+                                const py::object& dofs, const std::optional<std::string>& integrator,
+                                std::optional<double> step, std::optional<double> tolerance,
+                                const py::object& damping_coefficient, const std::optional<std::string>& damping_law,
+                                const py::object& damping, std::optional<std::size_t> hand) {
   simulation::ForkChange fork;
   fork.stiffness = per_dof<double>(stiffness, "stiffness");
   fork.damping_ratio = per_dof<double>(damping_ratio, "damping_ratio");
+  fork.damping_coefficient = per_dof<double>(damping_coefficient, "damping_coefficient");
+  if (damping_law) fork.damping_law = value_of<rod::DampingLaw>(*damping_law, "damping_law");
+  fork.damping = per_dof<double>(damping, "damping");
   fork.dofs = per_dof<bool>(dofs, "dofs");
   simulation::DynamicsChange dynamics;
   if (integrator) dynamics.integrator = value_of<dynamics::IntegratorKind>(*integrator, "integrator");
   dynamics.step = step;
   dynamics.tolerance = tolerance;
-  of.change(fork, dynamics);
+  return of.change(fork, dynamics, hand);
 }
 
 void push_motion(Simulation& to, const Motion& motion, std::size_t hand) {
@@ -127,6 +133,11 @@ void bind_state_access(py::class_<Simulation>& type) {
       .def_property_readonly("contacts", &Simulation::contacts,
                              "Contact points at the current time: a list of ContactState.")
       .def("tool", &Simulation::tool, py::arg("hand") = 0, "Returns the state of the tool in a hand.")
+      .def_property_readonly("elastic_energy", &Simulation::elastic_energy, "Energy stored in all tools [J].")
+      .def_property_readonly(
+          "energy", &Simulation::energy,
+          "Energy of tools and objects: elastic, kinetic, and potential (zero at z = 0) [J]; without what is stored in "
+          "compliant materials.")
       .def("save", &Simulation::save, "Returns the whole state.")
       .def("restore", &Simulation::restore, py::arg("state"),
            "Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes "
@@ -139,26 +150,29 @@ void bind_state_access(py::class_<Simulation>& type) {
 void bind_changes(py::class_<Simulation>& type) {
   type.def(
           "select_tool",
-          [](Simulation& s, const std::string& tool, std::size_t hand) {
-            s.select_tool(value_of<tools::Tool>(tool, "tool"), hand);
+          [](Simulation& s, const std::string& tool, std::optional<std::size_t> hand) {
+            return s.select_tool(value_of<tools::Tool>(tool, "tool"), hand);
           },
           py::arg("tool"), py::arg("hand") = 0,
-          "Changes the tool in a hand to spring, spring_fork, spring_probe, direct or ray.")
+          "Changes the tool in a hand, or with None in each, to spring, spring_fork, spring_probe, direct or ray. What "
+          "it holds stays in hand, except with spring_probe.")
       .def("change", &change, py::kw_only(), py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
            py::arg("dofs") = py::none(), py::arg("integrator") = py::none(), py::arg("step") = py::none(),
-           py::arg("tolerance") = py::none(),
-           R"(Changes every fork and the integration, all or nothing; what is None stays as it is.
+           py::arg("tolerance") = py::none(), py::arg("damping_coefficient") = py::none(),
+           py::arg("damping_law") = py::none(), py::arg("damping") = py::none(), py::arg("hand") = py::none(),
+           R"(Changes the fork of a hand, or with None every fork, and the integration, all or nothing; what is None
+stays as it is.
 
-stiffness: of stretch, bend [N/m] and torsion [N m/rad], each a number or None; damping_ratio: of the same three; dofs:
-True for each of the three that is on; integrator: see integrators(); step [s]; tolerance [m], 0 for fixed steps.
-Raises InputError if a value is not allowed.)")
-      .def(
-          "calibrate", [](Simulation& s) { s.calibrate(); },
-          "Fits each hand's tool to the object that it holds or, with calibrate: world, restores the scene's "
-          "stiffness. Raises InputError if nothing is held by a fork or a spring.")
-      .def(
-          "release", [](Simulation& s) { return s.release(); },
-          "Releases the objects of all hands. Returns False if nothing was held.")
+stiffness: of stretch, bend [N/m] and torsion [N m/rad], each a number or None; damping_ratio: of the same three, 0 to
+10; damping_coefficient: of the same three [N s/m, N s/m, N m s/rad]; damping_law: per_dof, modal or coefficients;
+damping: ratios or coefficients, whichever that law or, without one, the fork's present law uses (three different ratios
+turn the present law modal into per_dof); dofs: True for each of the three that is on; integrator, of all hands: see
+integrators(); step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not allowed.)")
+      .def("calibrate", &Simulation::calibrate, py::arg("hand") = py::none(),
+           "Fits the tool of a hand, or with None of each, to the object that it holds or, with calibrate: world, "
+           "restores the scene's stiffness. Raises InputError if nothing is held by a fork or a spring.")
+      .def("release", &Simulation::release, py::arg("hand") = py::none(),
+           "Releases the object of a hand, or with None those of all hands. Returns False if nothing was held.")
       .def(
           "place", [](Simulation& s, const std::map<std::string, Array>& poses) { s.place(to_poses(poses)); },
           py::arg("poses"),
@@ -176,7 +190,7 @@ Raises InputError, and changes nothing, if a name is not that of a movable objec
             if (pose) edit.X_WL = to_pose(*pose, "pose");
             edit.mass = mass;
             edit.friction = friction;
-            s.edit(edit);
+            return s.edit(edit);
           },
           py::arg("action"), py::arg("name"), py::arg("urdf") = "", py::arg("pose") = py::none(), py::arg("mass") = 0.0,
           py::arg("friction") = 0.0,
@@ -245,6 +259,12 @@ most the setting `styluses` - 1; any other raises InputError.)");
           "invalid.")
       .def("push_button", &Simulation::push_button, py::arg("t"), py::arg("pressed"), py::arg("hand") = 0,
            "Presses (True) or releases (False) the grasp button at time t [s]. Raises InputError if t is not finite.")
+      .def("push_next_tool", &Simulation::push_next_tool, py::arg("t"), py::arg("hand") = 0,
+           "Selects the next tool at time t [s] or, while something is held, the next tool that can hold it. Raises "
+           "InputError if t is not finite.")
+      .def("push_clutch", &Simulation::push_clutch, py::arg("t"), py::arg("on"), py::arg("hand") = 0,
+           "Switches the clutch at time t [s]: while it is on, the tool and what it holds stay in place and the hand "
+           "moves alone; from then on they follow its further motion. Raises InputError if t is not finite.")
       .def(
           "push_external_wrench",
           [](Simulation& s, double t, const Array& wrench, const std::string& axes, std::size_t hand) {

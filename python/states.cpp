@@ -49,7 +49,14 @@ void bind_tool(py::module_& module) {
           "Stiffness of stretch, bend [N/m] and torsion [N m/rad]; shape (3,).")
       .def_property_readonly(
           "damping_ratio", [=](const ToolState& s) { return per_dof(s.damping_ratio); },
-          "Damping ratio of stretch, bend and torsion; shape (3,).")
+          "Damping ratio of stretch, bend and torsion, in force with the laws per_dof and modal; shape (3,).")
+      .def_property_readonly(
+          "damping_coefficient", [=](const ToolState& s) { return per_dof(s.damping_coefficient); },
+          "Damping coefficient of stretch, bend [N s/m] and torsion [N m s/rad], in force with the law coefficients; "
+          "shape (3,).")
+      .def_property_readonly(
+          "damping_law", [](const ToolState& s) { return word(s.damping_law); },
+          "Damping law: per_dof, modal or coefficients.")
       .def_property_readonly(
           "strain", [](const ToolState& s) { return to_array(s.strain); },
           "Strain coordinates of the shape model; shape (n,), n at most 6.")
@@ -80,8 +87,17 @@ void bind_tool(py::module_& module) {
                     "[m], rounding excluded; None if the setting `error_bound` is off or, e.g., in contact.")
       .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
+      .def_readonly("stretching_force", &ToolState::stretching_force,
+                    "Force along the tool's axis at the handle, > 0 in tension [N] (the paper, section 4).")
+      .def_readonly("bending_force", &ToolState::bending_force, "Force perpendicular to that axis [N].")
+      .def_readonly("force_angle", &ToolState::force_angle,
+                    "Angle between that axis and the force on the tool, 0 to pi [rad].")
+      .def_readonly("load", &ToolState::load, "Load as a fraction of the scene's range of loads, 0 to 1.")
+      .def_readonly("clutch", &ToolState::clutch, "True while the hand moves without the tool.")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
-                    "Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading.");
+                    "Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading.")
+      .def_readonly("material_stiffness_uncertainty", &ToolState::material_stiffness_uncertainty,
+                    "One standard deviation of that reading [N/m].");
 }
 
 void bind_contact(py::module_& module) {
@@ -113,6 +129,8 @@ void bind_report(py::module_& module) {
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
       .def_readonly("angle_error", &AdvanceReport::angle_error,
                     "Largest estimate of a step's local error in the angle [rad].")
+      .def_readonly("local_error_bound", &AdvanceReport::local_error_bound,
+                    "Largest bound on a step's local error in position [m]; None if no step has one.")
       .def_readonly(
           "error_bound", &AdvanceReport::error_bound,
           "Largest bound on the error of integration in position, since the grasp or the last step without a bound "
@@ -123,10 +141,17 @@ void bind_report(py::module_& module) {
           "steps_unbounded", &AdvanceReport::steps_unbounded,
           "Number of integrations (in contact several a step) without an error bound: all, unless the setting "
           "`error_bound` is on.")
-      .def_readonly("energy_added", &AdvanceReport::energy_added,
+      .def_readonly("energy_balance", &AdvanceReport::energy_balance,
                     "Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J].")
+      .def_readonly("energy_error", &AdvanceReport::energy_error, "Sum of the steps' estimated errors in energy [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
                     "Angular frequency of the stiffest mode times the step.")
+      .def_readonly("collision_queries", &AdvanceReport::collision_queries,
+                    "Number of queries to the collision library.")
+      .def_readonly("stops", &AdvanceReport::stops,
+                    "Number of steps that met the end of the fork's range (fully compressed or wound up).")
+      .def_readonly("steps_fallback", &AdvanceReport::steps_fallback,
+                    "Number of steps taken by an L-stable rule because the integrator's equation was not solved.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
                     "Number of steps in which contact did not allow an object to move.")
       .def_readonly(
@@ -138,6 +163,14 @@ void bind_report(py::module_& module) {
                     "Number of steps rejected because their result was not finite or bounded.")
       .def_property_readonly("active", &AdvanceReport::active, "Names of the subsystems that ran.")
       .def_property_readonly("skipped", &AdvanceReport::skipped, "Names of the subsystems that were not needed.");
+  using simulation::ChangeReport;
+  py::class_<ChangeReport>(module, "ChangeReport", "Report of a change while running.")
+      .def_readonly("elastic_energy_before", &ChangeReport::elastic_energy_before,
+                    "Energy stored in all tools just before the change [J].")
+      .def_readonly("elastic_energy_after", &ChangeReport::elastic_energy_after,
+                    "Energy stored in all tools just after the change [J].")
+      .def_readonly("energy_added", &ChangeReport::energy_added, "What the change adds to `Simulation.energy` [J].")
+      .def_readonly("message", &ChangeReport::message, "What was changed, in one line.");
 }
 
 }  // namespace

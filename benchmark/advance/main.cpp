@@ -48,7 +48,7 @@ int run(const std::string& path, const std::string& name, int steps) {
   settings.grasp.start_follow = true;
   simulation::Simulation simulation(scene::load_scene(path), settings), copy(scene::load_scene(path), settings);
   const double held = simulation.objects().front().X_WO.translation().z();
-  int taken = 0, touching = 0;
+  long taken = 0, touching = 0;
   for (int i = 0; i < steps_before + steps + 2; ++i) {
     const double t = i * interval, lowered = pressed ? std::min(1.0, t) : 0.0;
     const double height = pressed ? held + 0.02 - 0.021 * lowered : held + 0.5;

@@ -185,8 +185,8 @@ class Day {
     return command;
   }
   void change() {
-    if (chance(0.1)) return runner_->restart();
     try {
+      if (chance(0.1)) return void(runner_->restart());
       runner_->change("day", random_command());
     } catch (const validation::InputError&) {  // nothing is held, or there is nothing to undo
     }

@@ -14,6 +14,7 @@ state is then unchanged.
 
 _NAMES = [
     "AdvanceReport",
+    "ChangeReport",
     "ContactState",
     "InputError",
     "Motion",

@@ -1,6 +1,7 @@
 from typing import List
 
 from ._core import AdvanceReport as AdvanceReport
+from ._core import ChangeReport as ChangeReport
 from ._core import ContactState as ContactState
 from ._core import InputError as InputError
 from ._core import Motion as Motion
@@ -20,6 +21,7 @@ def __dir__() -> List[str]: ...
 
 __all__ = [
     "AdvanceReport",
+    "ChangeReport",
     "ContactState",
     "InputError",
     "Motion",

@@ -109,7 +109,14 @@ class ToolState:
         """Stiffness of stretch, bend [N/m] and torsion [N m/rad]; shape (3,)."""
     @property
     def damping_ratio(self) -> _Floats:
-        """Damping ratio of stretch, bend and torsion; shape (3,)."""
+        """Damping ratio of stretch, bend and torsion, in force with the laws per_dof and modal; shape (3,)."""
+    @property
+    def damping_coefficient(self) -> _Floats:
+        """Damping coefficient of stretch, bend [N s/m] and torsion [N m s/rad], in force with the law coefficients;
+        shape (3,)."""
+    @property
+    def damping_law(self) -> str:
+        """Damping law: per_dof, modal or coefficients."""
     @property
     def strain(self) -> _Floats:
         """Strain coordinates of the shape model; shape (n,), n at most 6."""
@@ -157,8 +164,26 @@ class ToolState:
     def torque(self) -> float:
         """Moment about the fork's axis at the tip [N m]."""
     @property
+    def stretching_force(self) -> float:
+        """Force along the tool's axis at the handle, > 0 in tension [N] (the paper, section 4)."""
+    @property
+    def bending_force(self) -> float:
+        """Force perpendicular to that axis [N]."""
+    @property
+    def force_angle(self) -> float:
+        """Angle between that axis and the force on the tool, 0 to pi [rad]."""
+    @property
+    def load(self) -> float:
+        """Load as a fraction of the scene's range of loads, 0 to 1."""
+    @property
+    def clutch(self) -> bool:
+        """True while the hand moves without the tool."""
+    @property
     def material_stiffness(self) -> float:
         """Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading."""
+    @property
+    def material_stiffness_uncertainty(self) -> float:
+        """One standard deviation of that reading [N/m]."""
 
 class ContactState:
     """Contact point between an object and another body, in world axes."""
@@ -208,6 +233,9 @@ class AdvanceReport:
     def angle_error(self) -> float:
         """Largest estimate of a step's local error in the angle [rad]."""
     @property
+    def local_error_bound(self) -> Optional[float]:
+        """Largest bound on a step's local error in position [m]; None if no step has one."""
+    @property
     def error_bound(self) -> Optional[float]:
         """Largest bound on the error of integration in position, since the grasp or the last step without a bound [m];
         None if no step has one, e.g. without the setting `error_bound`."""
@@ -219,11 +247,23 @@ class AdvanceReport:
         """Number of integrations (in contact several a step) without an error bound: all, unless the setting
         `error_bound` is on."""
     @property
-    def energy_added(self) -> float:
+    def energy_balance(self) -> float:
         """Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J]."""
+    @property
+    def energy_error(self) -> float:
+        """Sum of the steps' estimated errors in energy [J]."""
     @property
     def stiffest_omega_dt(self) -> float:
         """Angular frequency of the stiffest mode times the step."""
+    @property
+    def collision_queries(self) -> int:
+        """Number of queries to the collision library."""
+    @property
+    def stops(self) -> int:
+        """Number of steps that met the end of the fork's range (fully compressed or wound up)."""
+    @property
+    def steps_fallback(self) -> int:
+        """Number of steps taken by an L-stable rule because the integrator's equation was not solved."""
     @property
     def steps_blocked(self) -> int:
         """Number of steps in which contact did not allow an object to move."""
@@ -242,6 +282,21 @@ class AdvanceReport:
     @property
     def skipped(self) -> List[str]:
         """Names of the subsystems that were not needed."""
+
+class ChangeReport:
+    """Report of a change while running."""
+    @property
+    def elastic_energy_before(self) -> float:
+        """Energy stored in all tools just before the change [J]."""
+    @property
+    def elastic_energy_after(self) -> float:
+        """Energy stored in all tools just after the change [J]."""
+    @property
+    def energy_added(self) -> float:
+        """What the change adds to `Simulation.energy` [J]."""
+    @property
+    def message(self) -> str:
+        """What was changed, in one line."""
 
 class SimulationState:
     """Saved state of a whole simulation. It can be compared and pickled."""
@@ -265,6 +320,12 @@ class Simulation:
         invalid."""
     def push_button(self, t: float, pressed: bool, hand: int = 0) -> None:
         """Presses (True) or releases (False) the grasp button at time t [s]. Raises InputError if t is not finite."""
+    def push_next_tool(self, t: float, hand: int = 0) -> None:
+        """Selects the next tool at time t [s] or, while something is held, the next tool that can hold it. Raises
+        InputError if t is not finite."""
+    def push_clutch(self, t: float, on: bool, hand: int = 0) -> None:
+        """Switches the clutch at time t [s]: while it is on, the tool and what it holds stay in place and the hand
+        moves alone; from then on they follow its further motion. Raises InputError if t is not finite."""
     def push_external_wrench(self, t: float, wrench: npt.ArrayLike, axes: str = "world", hand: int = 0) -> None:
         """Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
 
@@ -306,6 +367,13 @@ class Simulation:
         """Contact points at the current time: a list of ContactState."""
     def tool(self, hand: int = 0) -> ToolState:
         """Returns the state of the tool in a hand."""
+    @property
+    def elastic_energy(self) -> float:
+        """Energy stored in all tools [J]."""
+    @property
+    def energy(self) -> float:
+        """Energy of tools and objects: elastic, kinetic, and potential (zero at z = 0) [J]; without what is stored in
+        compliant materials."""
     def save(self) -> SimulationState:
         """Returns the whole state."""
     def restore(self, state: SimulationState) -> None:
@@ -314,8 +382,9 @@ class Simulation:
     @property
     def state_hash(self) -> str:
         """Hash of the whole state: 16 hexadecimal digits."""
-    def select_tool(self, tool: str, hand: int = 0) -> None:
-        """Changes the tool in a hand to spring, spring_fork, spring_probe, direct or ray."""
+    def select_tool(self, tool: str, hand: Optional[int] = 0) -> ChangeReport:
+        """Changes the tool in a hand, or with None in each, to spring, spring_fork, spring_probe, direct or ray. What
+        it holds stays in hand, except with spring_probe."""
     def change(
         self,
         *,
@@ -325,17 +394,25 @@ class Simulation:
         integrator: Optional[str] = None,
         step: Optional[float] = None,
         tolerance: Optional[float] = None,
-    ) -> None:
-        """Changes every fork and the integration, all or nothing; what is None stays as it is.
+        damping_coefficient: Optional[Sequence[Optional[float]]] = None,
+        damping_law: Optional[str] = None,
+        damping: Optional[Sequence[Optional[float]]] = None,
+        hand: Optional[int] = None,
+    ) -> ChangeReport:
+        """Changes the fork of a hand, or with None every fork, and the integration, all or nothing; what is None stays
+        as it is.
 
         stiffness: of stretch, bend [N/m] and torsion [N m/rad], each a number or None; damping_ratio: of the same
-        three; dofs: True for each of the three that is on; integrator: see integrators(); step [s]; tolerance [m], 0
-        for fixed steps. Raises InputError if a value is not allowed."""
-    def calibrate(self) -> None:
-        """Fits each hand's tool to the object that it holds or, with calibrate: world, restores the scene's stiffness.
-        Raises InputError if nothing is held by a fork or a spring."""
-    def release(self) -> bool:
-        """Releases the objects of all hands. Returns False if nothing was held."""
+        three, 0 to 10; damping_coefficient: of the same three [N s/m, N s/m, N m s/rad]; damping_law: per_dof, modal or
+        coefficients; damping: ratios or coefficients, whichever that law or, without one, the fork's present law uses
+        (three different ratios turn the present law modal into per_dof); dofs: True for each of the three that is on;
+        integrator, of all hands: see integrators(); step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a
+        value is not allowed."""
+    def calibrate(self, hand: Optional[int] = None) -> ChangeReport:
+        """Fits the tool of a hand, or with None of each, to the object that it holds or, with calibrate: world,
+        restores the scene's stiffness. Raises InputError if nothing is held by a fork or a spring."""
+    def release(self, hand: Optional[int] = None) -> bool:
+        """Releases the object of a hand, or with None those of all hands. Returns False if nothing was held."""
     def place(self, poses: Mapping[str, npt.ArrayLike]) -> None:
         """Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest.
 
@@ -348,7 +425,7 @@ class Simulation:
         pose: Optional[npt.ArrayLike] = None,
         mass: float = 0.0,
         friction: float = 0.0,
-    ) -> None:
+    ) -> ChangeReport:
         """Changes the object `name`, all or nothing; everything else continues from where it is.
 
         action: add (needs urdf; at pose or, without one, on the bench), move (needs pose), remove, mass (to mass [kg];

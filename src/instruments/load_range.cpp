@@ -51,6 +51,8 @@ tools::ToolState unloaded(tools::Tool tool, const rod::ForkSettings& fork, dynam
   f.strain = rod::StrainVector::Zero(rod::make_shape_model(f.shape, f.length)->size());
   f.stiffness = fork.stiffness;
   f.damping_ratio = fork.damping_ratio;
+  f.damping_coefficient = fork.damping_coefficient;
+  f.damping_law = fork.damping_law;
   f.X_WS = f.X_WH = f.X_WH_proxy = X_WS;
   f.X_WE = X_WS * Eigen::Translation3d(0.0, 0.0, f.length);
   return f;

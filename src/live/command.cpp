@@ -8,13 +8,7 @@
 namespace spring_workbench::live {
 namespace {
 
-simulation::ChangeReport change_settings(const Command& command, simulation::Simulation& simulation) {
-  if (command.dynamics_change.empty()) return simulation.change(command.fork_change, command.hand);
-  simulation.change(command.fork_change, command.dynamics_change);
-  return {};
-}
-
-simulation::ChangeReport release(const Command& command, simulation::Simulation& simulation) {
+std::string release(const Command& command, simulation::Simulation& simulation) {
   std::vector<std::string> names;
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
     if (command.hand.value_or(hand) != hand) continue;
@@ -22,18 +16,43 @@ simulation::ChangeReport release(const Command& command, simulation::Simulation&
     if (simulation.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   if (names.empty()) throw validation::InputError("no object is held, so there is nothing to release");
-  simulation::ChangeReport report;
-  report.message = "released " + validation::join(names);
-  return report;
+  return "released " + validation::join(names);
 }
 
-simulation::ChangeReport clutch(const Command& command, simulation::Simulation& simulation) {
+std::string clutch(const Command& command, simulation::Simulation& simulation) {
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
     if (command.hand.value_or(hand) == hand) simulation.push_clutch(simulation.time(), command.on, hand);
   }
-  simulation::ChangeReport report;
-  report.message = command.on ? "on: the hand moves without the tool" : "off: the tool follows the hand";
-  return report;
+  return command.on ? "on: the hand moves without the tool" : "off: the tool follows the hand";
+}
+
+/// Makes the change and returns the message.
+std::string make(const Command& command, simulation::Simulation& simulation) {
+  switch (command.kind) {
+    case Command::Kind::select_tool:
+      return simulation.select_tool(command.tool, command.hand).message;
+    case Command::Kind::settings:
+      return simulation.change(command.fork_change, command.dynamics_change, command.hand).message;
+    case Command::Kind::calibrate:
+      return simulation.calibrate(command.hand).message;
+    case Command::Kind::release:
+      return release(command, simulation);
+    case Command::Kind::clutch:
+      return clutch(command, simulation);
+    case Command::Kind::restart:
+    case Command::Kind::reset:
+      simulation.reset();
+      simulation.place(command.places);
+      return "all objects are back at their start poses";
+    case Command::Kind::edit:
+      return simulation.edit(command.edit, command.roots).message;
+    case Command::Kind::none:
+    case Command::Kind::load_scene:
+    case Command::Kind::undo:
+      break;
+  }
+  validation::refuse("command", "kind", std::to_string(static_cast<int>(command.kind)),
+                     "a change of the current scene (not none, load_scene or undo)");
 }
 
 }  // namespace
@@ -62,36 +81,12 @@ Command Command::from(const std::vector<std::uint64_t>& words) {
 void Command::exchange(math::StateArchive& state) {
   state(kind, hand, tool, on, places);
   state(fork_change.dofs, fork_change.stiffness, fork_change.damping_ratio, fork_change.damping_coefficient,
-        fork_change.damping_law);
+        fork_change.damping_law, fork_change.damping);
   state(dynamics_change.integrator, dynamics_change.step, dynamics_change.tolerance, edit);
 }
 
-simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation) {
-  switch (command.kind) {
-    case Command::Kind::select_tool:
-      return simulation.select_tool(command.tool, command.hand);
-    case Command::Kind::settings:
-      return change_settings(command, simulation);
-    case Command::Kind::calibrate:
-      return simulation.calibrate(command.hand);
-    case Command::Kind::release:
-      return release(command, simulation);
-    case Command::Kind::clutch:
-      return clutch(command, simulation);
-    case Command::Kind::restart:
-    case Command::Kind::reset:
-      simulation.reset();
-      simulation.place(command.places);
-      return {};
-    case Command::Kind::edit:
-      return simulation.edit(command.edit, command.roots);
-    case Command::Kind::none:
-    case Command::Kind::load_scene:
-    case Command::Kind::undo:
-      break;
-  }
-  validation::refuse("command", "kind", std::to_string(static_cast<int>(command.kind)),
-                     "a change of the current scene (not none, load_scene or undo)");
+ChangeReport perform(const Command& command, simulation::Simulation& simulation) {
+  return simulation::reported(simulation, [&] { return make(command, simulation); });
 }
 
 std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {

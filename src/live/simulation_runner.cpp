@@ -162,59 +162,59 @@ void SimulationRunner::push(HandInput& input, StylusWrench wrench, double t) {
   feed_.push_external_wrench(wrench.sample, input.hand);
 }
 
-void SimulationRunner::restart_with(const std::string& what, Command::Kind kind) {
+ChangeReport SimulationRunner::restart_with(const std::string& what, Command::Kind kind) {
   Command command(kind);
   command.places = std::exchange(places_, {});
   const RecordedChange noted(*this, what, command);
-  undo_.perform(command, simulation_);
+  ChangeReport report = undo_.perform(command, simulation_);
   task_.reset();
   feed_.restart();
   ahead_.allow_time_back();
+  return report;
 }
 
-void SimulationRunner::restart() {
+ChangeReport SimulationRunner::restart() {
   const Lock lock(mutex_);
   places_.clear();
-  restart_with("reset", Command::Kind::reset);
+  return restart_with("reset", Command::Kind::reset);
 }
 
-simulation::ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
+ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
   const Lock lock(mutex_);
   const RecordedChange noted(*this, what, command);
   if (!simulated_time_) pace_.changed();
-  simulation::ChangeReport report = undo_.perform(command, simulation_);
+  ChangeReport report = undo_.perform(command, simulation_);
   const bool taken_back = command.kind == Command::Kind::undo;
   if (taken_back || command.kind == Command::Kind::edit) scene_changed();
   if (taken_back) feed_.restart();
   return report;
 }
 
-std::string SimulationRunner::undo() { return change("undo", Command(Command::Kind::undo)).message; }
-
-void SimulationRunner::load(const scene::Scene& scene) {
+ChangeReport SimulationRunner::load(const scene::Scene& scene) {
   const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
-  begin_with("load_scene", Command(Command::Kind::load_scene), make_simulation(scene, settings, forks),
-             LookAhead(scene, settings), {});
+  return begin_with("load_scene", Command(Command::Kind::load_scene), make_simulation(scene, settings, forks),
+                    LookAhead(scene, settings), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
   const simulation::SimulationSettings settings = locked([](const auto& present) { return present.settings(); });
   simulation::Simulation simulation(scene, settings);
   simulation.restore(state);
-  std::map<std::string, RigidTransform> places = put_to_rest(simulation, simulation.time());
+  Places places = put_to_rest(simulation, simulation.time());
   begin_with("resume", {}, std::move(simulation), LookAhead(scene, settings), std::move(places));
 }
 
-void SimulationRunner::begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
-                                  LookAhead ahead, std::map<std::string, RigidTransform> places) {
+ChangeReport SimulationRunner::begin_with(const std::string& what, const Command& command,
+                                          simulation::Simulation simulation, LookAhead ahead, Places places) {
   const Lock lock(mutex_);  // only now, because making the simulations may take long
   const RecordedChange noted(*this, what, command);
   places_ = std::move(places);
   undo_ = Undo();
-  simulation_ = std::move(simulation);
+  const auto report = simulation::reported(simulation_, [&] { return simulation_ = std::move(simulation), what; });
   ahead_ = std::move(ahead);
   scene_changed();
   feed_.restart();
+  return report;
 }
 
 void SimulationRunner::scene_changed() {

@@ -5,8 +5,8 @@
 
 namespace spring_workbench::live {
 
-std::map<std::string, RigidTransform> put_to_rest(simulation::Simulation& simulation, double now) {
-  std::map<std::string, RigidTransform> places;
+Places put_to_rest(simulation::Simulation& simulation, double now) {
+  Places places;
   for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
   simulation.reset();
   simulation.advance(now);  // without samples this takes no steps
@@ -15,26 +15,26 @@ std::map<std::string, RigidTransform> put_to_rest(simulation::Simulation& simula
   return places;
 }
 
-simulation::ChangeReport Undo::perform(const Command& command, simulation::Simulation& simulation) {
-  if (command.kind == Command::Kind::undo) return take_back(simulation);
+ChangeReport Undo::perform(const Command& command, simulation::Simulation& simulation) {
+  if (command.kind == Command::Kind::undo)
+    return simulation::reported(simulation, [&] { return take_back(simulation); });
   const bool reset = command.kind == Command::Kind::reset;
   if (!reset && command.kind != Command::Kind::edit) return live::perform(command, simulation);
   simulation::SimulationState before = simulation.save();
-  simulation::ChangeReport report = live::perform(command, simulation);
+  ChangeReport report = live::perform(command, simulation);
   before_.emplace_back(reset ? "reset" : report.message, std::move(before));
   if (before_.size() > max_undo_steps) before_.pop_front();
   return report;
 }
 
-simulation::ChangeReport Undo::take_back(simulation::Simulation& simulation) {
+std::string Undo::take_back(simulation::Simulation& simulation) {
   if (before_.empty()) throw validation::InputError("nothing was edited or reset since the scene was loaded");
   const double now = simulation.time();
   simulation.restore(before_.back().second);
   put_to_rest(simulation, now);
-  simulation::ChangeReport report;
-  report.message = before_.back().first;
+  std::string undone = std::move(before_.back().first);
   before_.pop_back();
-  return report;
+  return undone;
 }
 
 }  // namespace spring_workbench::live

@@ -24,6 +24,18 @@ std::optional<std::size_t> ObjectList::find(const std::string& name) const {
   return found == named_.end() ? std::nullopt : std::make_optional(found->second);
 }
 
+double ObjectList::energy() const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const auto& [mass, inertia_O] = body(i).mass_properties;
+    const Twist& V = states_[i].V_WO_W;
+    const Vector3d w_O = states_[i].X_WO.linear().transpose() * V.angular;
+    energy += 0.5 * (mass * V.linear.squaredNorm() + w_O.dot(inertia_O * w_O)) +
+              mass * scene_.gravity * states_[i].X_WO.translation().z();
+  }
+  return energy;
+}
+
 void ObjectList::clear_highlights() {
   for (const std::size_t object : highlighted_) state(object).highlighted = false;
   highlighted_.clear();

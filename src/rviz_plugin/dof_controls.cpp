@@ -26,7 +26,7 @@ DofControls::DofControls(QWidget* parent) : QWidget(parent) {
     dof.damping = new LogSlider(0.01, 10.0, "", this);
     dof.on->setToolTip("off: rigid");
     dof.stiffness->setToolTip("stiffness");
-    dof.damping->setToolTip("damping ratio: 1 is critical");
+    dof.damping->setToolTip("damping ratio: 1 is critical; with the damping law coefficients: in N s/m, N m s/rad");
     grid->addWidget(dof.on, 2 * i, 0);
     grid->addWidget(dof.stiffness, 2 * i, 1);
     grid->addWidget(new QLabel("  damping", this), 2 * i + 1, 0);
@@ -39,7 +39,9 @@ DofControls::DofControls(QWidget* parent) : QWidget(parent) {
 
 void DofControls::show_sliders(const ForkState& fork) {
   const std::array<double, 3> stiffness{fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness};
-  const std::array<double, 3> damping{fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio};
+  const std::array<double, 3> ratio{fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio},
+      coefficient{fork.stretch_damping_coefficient, fork.bend_damping_coefficient, fork.torsion_damping_coefficient};
+  const std::array<double, 3>& damping = fork.damping_law == "coefficients" ? coefficient : ratio;
   for (std::size_t i = 0; i < 3; ++i) {
     dofs_[i].stiffness->show_value(stiffness[i]);
     dofs_[i].damping->show_value(damping[i]);
@@ -67,12 +69,10 @@ SetForkStiffness::Request DofControls::stiffness(int i) const {
 }
 
 SetForkDamping::Request DofControls::damping() const {
-  SetForkDamping::Request request;
+  SetForkDamping::Request request;  // without a law: values of the one in force
   request.stretch = dofs_[0].damping->value();
   request.bend = dofs_[1].damping->value();
   request.torsion = dofs_[2].damping->value();
-  const bool one_ratio = request.stretch == request.bend && request.bend == request.torsion;
-  request.law = one_ratio ? "" : "per_dof";  // the modal law has a single ratio
   return request;
 }
 

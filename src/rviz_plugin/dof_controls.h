@@ -17,7 +17,7 @@ namespace spring_workbench::rviz_plugin {
 
 class LogSlider;
 
-/// A switch, a stiffness and a damping ratio for each degree of freedom of the fork: stretch, bend, torsion.
+/// A switch, a stiffness and a damping value for each degree of freedom of the fork: stretch, bend, torsion.
 class DofControls : public QWidget {
   Q_OBJECT
  public:

@@ -20,11 +20,20 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
+[[noreturn]] void refuse_missing(const std::string& where, const std::string& key, const std::string& name,
+                                 const std::string& rule) {
+  try {
+    validation::refuse(where, key, name, rule);
+  } catch (const validation::InputError& error) {
+    throw MissingFile(error.what());
+  }
+}
+
 std::string package_file(const std::string& name, const std::string& where, const std::string& key) {
   const std::string rest = name.substr(std::string("package://").size());
   const std::string package = rest.substr(0, rest.find('/'));
   const std::string folder = find_package_in_ros_package_path(package);
-  if (folder.empty()) validation::refuse(where, key, name, "a package that can be found");
+  if (folder.empty()) refuse_missing(where, key, name, "a package that can be found");
   return folder + rest.substr(package.size());
 }
 
@@ -108,7 +117,7 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
   check_folder(path, roots, name, where,
                key);  // checked first, so that the message does not reveal which files exist elsewhere
   if (!fs::is_regular_file(path, error))
-    validation::refuse(where, key, name, "an existing file" + (path == name ? "" : " (looked for " + path + ")"));
+    refuse_missing(where, key, name, "an existing file" + (path == name ? "" : " (looked for " + path + ")"));
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > max_bytes) {
     validation::refuse(where, key, name, "a file of at most " + std::to_string(max_bytes >> 20) + " MiB");

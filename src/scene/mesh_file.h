@@ -7,12 +7,19 @@
 #include <vector>
 
 #include "spring_workbench/scene/scene.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::scene {
 
-/// Resolves a file name in a scene: `package://`, `file://`, absolute, or relative to `folder`. Throws InputError
-/// naming `where`, `key` and the name if there is no such file, if it is neither in one of `roots` nor in a package
-/// (see load_scene()), or if it is too large.
+/// A file that a scene names, or its package, does not exist.
+class MissingFile : public validation::InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Resolves a file name in a scene: `package://`, `file://`, absolute, or relative to `folder`. Throws MissingFile
+/// naming `where`, `key` and the name if there is no such file, and InputError if it is neither in one of `roots` nor
+/// in a package (see load_scene()), whether it exists or not, or if it is too large.
 std::string resolve_file(const std::string& name, const std::string& folder, const std::vector<std::string>& roots,
                          const std::string& where, const std::string& key);
 

@@ -144,17 +144,26 @@ class BodyBuilder {
     return transformed(X_LK * to_transform(i.origin, where), {i.mass, Vector3d::Zero(), inertia});
   }
 
-  /// Shapes of collision or visual elements, in the frame of the group's first link.
+  /// Shapes of collision or visual elements, in the frame of the group's first link. A visual element whose mesh does
+  /// not exist is left out, with a warning.
   template <typename Element>
   std::vector<geometry::Shape> make_shapes(const urdf::Link& link, const RigidTransform& X_LK,
                                            const std::vector<Element>& elements) {
+    constexpr bool visual = std::is_same_v<Element, urdf::VisualSharedPtr>;
     const std::string where = file_.where(link.name);
     std::vector<geometry::Shape> shapes;
     for (const Element& element : elements) {
       geometry::Shape& shape = shapes.emplace_back();
       shape.X_OS = X_LK * to_transform(element->origin, where);
-      shape.geometry = make_geometry(*element->geometry, where);
-      if constexpr (std::is_same_v<Element, urdf::VisualSharedPtr>) {
+      try {
+        shape.geometry = make_geometry(*element->geometry, where);
+      } catch (const MissingFile& missing) {
+        if (!visual) throw;
+        warnings_.push_back(missing.what() + std::string(": it is not drawn"));
+        shapes.pop_back();
+        continue;
+      }
+      if constexpr (visual) {
         if (!element->material || !element->material->texture_filename.empty()) continue;
         const urdf::Color& c = element->material->color;  // urdfdom accepts only 0 … 1
         shape.color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();

@@ -41,7 +41,7 @@ void AdvanceReport::add(const AdvanceReport& later) {
   error_bound = std::max(error_bound, later.error_bound);
   angle_error_bound = std::max(angle_error_bound, later.angle_error_bound);
   steps_unbounded += later.steps_unbounded;
-  energy_added += later.energy_added;
+  energy_balance += later.energy_balance;
   stiffest_omega_dt = std::max(stiffest_omega_dt, later.stiffest_omega_dt);
   steps_among_movable += later.steps_among_movable;
   collision_queries += later.collision_queries;

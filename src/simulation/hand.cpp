@@ -197,7 +197,7 @@ bodies::SteppedBody* Hand::begin_step(double now, double h, const Wrench& load_W
 void Hand::end_step(AdvanceReport& report) {
   if (!hold_) return;
   slip_.accept();
-  report.energy_added += hold_->energy_added() - energy_added_before_;
+  report.energy_balance += hold_->energy_added() - energy_added_before_;
   add_to(report, hold_->take_estimates());
 }
 
@@ -208,30 +208,29 @@ bodies::SteppedBody* Hand::begin_slip(const Wrench& load_W) {
   return (pulled_ = maker().make_pulled(grasp_, grasped_body(), object().V_WO_W, load_W)).get();
 }
 
-void Hand::change_fork(const ForkChange& change, ChangeReport& report) {
+void Hand::change_fork(const ForkChange& change, std::string& message) {
   fork_ = change.applied_to(fork_);
   if (change.changes_springs() && hold_) hold_->set_springs(fork_);
   if (change.changes_springs() && probe_) probe_->set_springs(fork_);
   if (change.dofs.empty() || !hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
   if (hold_->set_dofs(maker().possible_dofs(grasp_, grasped_body()), fork_.switch_off_time)) {
-    report.message = "switched; the strain of DOFs that were switched off returns to zero with a time constant of " +
-                     std::to_string(fork_.switch_off_time) + " s and releases its energy";
+    message = "switched; the strain of DOFs that were switched off returns to zero with a time constant of " +
+              std::to_string(fork_.switch_off_time) + " s and releases its energy";
   }
 }
 
-bool Hand::calibrate(ChangeReport& change, double now) {
-  if (!hold_) return false;
+void Hand::calibrate(std::string& message, double now) {
+  if (!hold_) return;
   const bodies::BodyState before = object();
   const Wrench pull = hold_->spring_pull();
   if (tool_ == tools::Tool::spring_fork) {
     fit_size(grasp_);
     make_hold(now);
   }
-  if (!calibrate_hold()) return false;
+  if (!calibrate_hold()) return;
   hold_->regrasp(before.X_WO, pull);
   keep_twist(before.V_WO_W);
-  change.message = to_world() ? "restored the scene's stiffness" : "calibrated for " + before.name;
-  return true;
+  message = to_world() ? "restored the scene's stiffness" : "calibrated for " + before.name;
 }
 
 tools::ToolState Hand::state(double now) const {

@@ -71,13 +71,13 @@ class Hand {
   /// The fork of this hand, with all changes and calibrations since the start.
   const rod::ForkSettings& fork() const { return fork_; }
   /// Changes the fork, even while it holds an object. The change must be valid.
-  void change_fork(const ForkChange& change, ChangeReport& report);
+  void change_fork(const ForkChange& change, std::string& message);
   /// Adopts the changed integrator, step and tolerance of the settings.
   void change_integrator() {
     if (hold_) hold_->step_control() = stepping::make_step_control(settings_.dynamics);
   }
-  /// Sets length, springs and dampers to fit the held object. Returns false if no tool with springs holds one.
-  bool calibrate(ChangeReport& change, double now);
+  /// Sets length, springs and dampers to fit the held object, if a tool with springs holds one, and says so.
+  void calibrate(std::string& message, double now);
 
   double elastic_energy() const { return probe_ ? probe_->elastic_energy() : hold_ ? hold_->elastic_energy() : 0.0; }
   /// Returns the DOFs that moved since the last call of begin_call().

@@ -256,11 +256,10 @@ const Field& find_field(const std::vector<Field>& table, const std::string& key,
 void check_together(const S& settings, const std::string& where) {
   const rod::ForkSettings& fork = settings.fork;
   const rod::PerDof& ratio = fork.damping_ratio;
-  const bool one_ratio = ratio == rod::PerDof{ratio.stretch, ratio.stretch, ratio.stretch};
-  if (fork.damping_law == rod::DampingLaw::modal && !one_ratio) {
-    validation::refuse(where, "fork.damping",
-                       text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
-                       "equal ratios of stretch, bend and torsion if the damping law is modal");
+  if (fork.damping_law == rod::DampingLaw::modal && !ratio.uniform()) {
+    validation::refuse(
+        where, "fork.damping", text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
+        "equal ratios of stretch, bend and torsion if the damping law is modal (the law per_dof takes three)");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
     validation::refuse(settings.grasp.tip_place, "grasp.tip_in_object",
@@ -282,7 +281,8 @@ void validate(const SimulationSettings& settings, const std::string& where) {
 }
 
 bool ForkChange::changes_springs() const {
-  return !stiffness.empty() || !damping_ratio.empty() || !damping_coefficient.empty() || damping_law;
+  return !stiffness.empty() || !damping_ratio.empty() || !damping_coefficient.empty() || damping_law ||
+         !damping.empty();
 }
 
 rod::ForkSettings ForkChange::applied_to(rod::ForkSettings fork) const {
@@ -291,6 +291,9 @@ rod::ForkSettings ForkChange::applied_to(rod::ForkSettings fork) const {
   fork.damping_ratio = damping_ratio.applied_to(fork.damping_ratio);
   fork.damping_coefficient = damping_coefficient.applied_to(fork.damping_coefficient);
   fork.damping_law = damping_law.value_or(fork.damping_law);
+  fork.damping() = damping.applied_to(fork.damping());
+  const bool one_per_dof = !damping.empty() && !damping_law && !fork.damping_ratio.uniform();
+  if (one_per_dof && fork.damping_law == rod::DampingLaw::modal) fork.damping_law = rod::DampingLaw::per_dof;
   return fork;
 }
 
@@ -300,7 +303,8 @@ ForkChange change_to(const rod::ForkSettings& fork) {
           all(fork.stiffness),
           all(fork.damping_ratio),
           all(fork.damping_coefficient),
-          fork.damping_law};
+          fork.damping_law,
+          {}};
 }
 
 dynamics::DynamicsSettings DynamicsChange::applied_to(dynamics::DynamicsSettings dynamics) const {

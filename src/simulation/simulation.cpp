@@ -6,7 +6,6 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
-#include <tuple>
 
 #include "constants.h"
 #include "hand.h"
@@ -95,13 +94,6 @@ void check_origin(const std::string& saved, const std::string& present) {
     validation::refuse("", "state", "that of a simulation without " + more);
 }
 
-/// Returns whether this change would change the fork.
-bool changes(const ForkChange& change, const rod::ForkSettings& fork) {
-  const rod::ForkSettings f = change.applied_to(fork);
-  return std::tie(f.dofs, f.stiffness, f.damping_ratio, f.damping_coefficient, f.damping_law) !=
-         std::tie(fork.dofs, fork.stiffness, fork.damping_ratio, fork.damping_coefficient, fork.damping_law);
-}
-
 }  // namespace
 
 struct Simulation::Impl {
@@ -178,12 +170,10 @@ struct Simulation::Impl {
   /// Saves or restores the state. `some`: only these objects; null: all.
   void exchange(math::StateArchive& state, const std::vector<std::size_t>* some = nullptr);
   void set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some = nullptr);
-  double elastic_energy() const;
   void move(const ObjectEdit& edit);
   /// Takes over the state of `before`, whose scene differs only by `edit`.
   void continue_from(Impl& before, const ObjectEdit& edit);
   void check_place(const std::string& name, const RigidTransform& X_WO) const;
-  void check(const ForkChange& fork_change, const DynamicsChange& dynamics_change) const;
   void fill_subsystems(AdvanceReport& report) const;
 };
 
@@ -402,12 +392,6 @@ void Simulation::Impl::set(const math::StateArchive::Words& words, const std::ve
   if (!state.at_end()) throw std::out_of_range("data left over at the end");
 }
 
-double Simulation::Impl::elastic_energy() const {
-  double energy = 0.0;
-  for (const Hand& hand : hands) energy += hand.elastic_energy();
-  return energy;
-}
-
 void Simulation::Impl::fill_subsystems(AdvanceReport& report) const {
   rod::ForkDofs run{false, false, false};
   for (const Hand& hand : hands) {
@@ -492,69 +476,52 @@ void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
   for (const auto& [name, X] : X_WO) impl_->objects.place(*impl_->objects.find(name), X, impl_->now);
 }
 
-bool Simulation::release() {
+bool Simulation::release(std::optional<std::size_t> hand) {
   bool released = false;
-  for (std::size_t hand = 0; hand < hands(); ++hand) released = release(hand) || released;
-  return released;
-}
-
-bool Simulation::release(std::size_t hand) {
-  Hand& of = impl_->hand(hand);
-  const bool released = of.holds();
-  impl_->with_handover([&] { of.let_go(impl_->settings.grasp.release == tools::Release::thrown, impl_->now); });
+  for (Hand* of : impl_->chosen(hand)) {
+    released |= of->holds();
+    impl_->with_handover([&] { of->let_go(impl_->settings.grasp.release == tools::Release::thrown, impl_->now); });
+  }
   return released;
 }
 
 const rod::ForkSettings& Simulation::fork_settings(std::size_t hand) const { return impl_->hand(hand).fork(); }
 
 ChangeReport Simulation::select_tool(tools::Tool tool, std::optional<std::size_t> hand) {
-  ChangeReport change;
-  change.elastic_energy_before = impl_->elastic_energy();
-  bool held = false;
-  impl_->with_handover([&] {
-    for (Hand* of : impl_->chosen(hand)) {
-      held |= of->holds();
-      of->select_tool(tool, impl_->now);
-    }
+  return reported(*this, [&] {
+    bool held = false;
+    impl_->with_handover([&] {
+      for (Hand* of : impl_->chosen(hand)) {
+        held |= of->holds();
+        of->select_tool(tool, impl_->now);
+      }
+    });
+    return "tool: " + validation::name_of(tool) +
+           (held && !tools::can_hold(tool) ? "; it cannot hold an object, so the object was released" : "");
   });
-  change.elastic_energy_after = impl_->elastic_energy();
-  change.message = "tool: " + validation::name_of(tool) +
-                   (held && !tools::can_hold(tool) ? "; it cannot hold an object, so the object was released" : "");
-  return change;
 }
 
-/// Throws InputError unless the changes are valid for all forks and for the settings.
-void Simulation::Impl::check(const ForkChange& fork_change, const DynamicsChange& dynamics_change) const {
-  SimulationSettings changed = settings;
-  changed.dynamics = dynamics_change.applied_to(settings.dynamics);
-  for (const Hand& hand : hands) {
-    changed.fork = fork_change.applied_to(hand.fork());
+ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dynamics,
+                                std::optional<std::size_t> hand) {
+  SimulationSettings changed = impl_->settings;
+  changed.dynamics = dynamics.applied_to(changed.dynamics);
+  for (const Hand* of : impl_->chosen(hand)) {
+    changed.fork = fork.applied_to(of->fork());
     validate(changed, "");
   }
-}
-
-ChangeReport Simulation::change(const ForkChange& change, std::optional<std::size_t> hand) {
-  impl_->check(change, {});
-  ChangeReport report;
-  report.elastic_energy_before = impl_->elastic_energy();
-  for (Hand* of : impl_->chosen(hand)) {
-    if (changes(change, of->fork())) of->change_fork(change, report);
-  }
-  report.elastic_energy_after = impl_->elastic_energy();
-  if (report.message.empty()) report.message = change.empty() ? "nothing changed" : "set; the strain is unchanged";
-  return report;
-}
-
-void Simulation::change(const DynamicsChange& change) {
-  impl_->check({}, change);
-  impl_->settings.dynamics = change.applied_to(impl_->settings.dynamics);
-  for (Hand& hand : impl_->hands) hand.change_integrator();
-}
-
-void Simulation::change(const ForkChange& fork_change, const DynamicsChange& dynamics_change) {
-  impl_->check(fork_change, dynamics_change);
-  if (!fork_change.empty()) change(fork_change);
-  if (!dynamics_change.empty()) change(dynamics_change);
+  return reported(*this, [&] {
+    std::string message = fork.empty() && dynamics.empty() ? "nothing changed" : "set; the strain is unchanged";
+    for (Hand* of : impl_->chosen(hand)) {
+      const rod::ForkSettings next = fork.applied_to(of->fork());
+      if (next.damping_law != of->fork().damping_law)
+        message = "set; damping law: " + validation::name_of(next.damping_law);
+      if (next.changeable() != of->fork().changeable()) of->change_fork(fork, message);
+    }
+    if (dynamics.empty()) return message;
+    impl_->settings.dynamics = changed.dynamics;
+    for (Hand& of : impl_->hands) of.change_integrator();
+    return message;
+  });
 }
 
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
@@ -602,20 +569,18 @@ void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
 
 ChangeReport Simulation::edit(const ObjectEdit& edit, const std::vector<std::string>& roots) {
   validate(edit);
-  ChangeReport report;
-  report.elastic_energy_before = impl_->elastic_energy();
-  if (edit.action == Action::move) {
-    impl_->move(edit);
-  } else {
-    scene::Scene edited = impl_->scene;  // throws here if the edit does not match the scene
-    make_edit(edit, roots, impl_->settings.massless, edited);
-    auto next = std::make_unique<Impl>(impl_->given_scene, impl_->given_settings, with(impl_->edits, edit), roots);
-    next->continue_from(*impl_, edit);
-    impl_ = std::move(next);
-  }
-  report.elastic_energy_after = impl_->elastic_energy();
-  report.message = validation::name_of(edit.action) + ": " + edit.name;
-  return report;
+  return reported(*this, [&] {
+    if (edit.action == Action::move) {
+      impl_->move(edit);
+    } else {
+      scene::Scene edited = impl_->scene;  // throws here if the edit does not match the scene
+      make_edit(edit, roots, impl_->settings.massless, edited);
+      auto next = std::make_unique<Impl>(impl_->given_scene, impl_->given_settings, with(impl_->edits, edit), roots);
+      next->continue_from(*impl_, edit);
+      impl_ = std::move(next);
+    }
+    return validation::name_of(edit.action) + ": " + edit.name;
+  });
 }
 
 scene::Scene Simulation::scene_now() const {
@@ -627,13 +592,12 @@ scene::Scene Simulation::scene_now() const {
 }
 
 ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
-  ChangeReport change;
-  change.elastic_energy_before = impl_->elastic_energy();
-  bool done = false;
-  for (Hand* of : impl_->chosen(hand)) done = of->calibrate(change, impl_->now) || done;
-  if (!done) throw validation::InputError("no object is held by a fork or spring, so there is nothing to calibrate");
-  change.elastic_energy_after = impl_->elastic_energy();
-  return change;
+  return reported(*this, [&] {
+    std::string message;
+    for (Hand* of : impl_->chosen(hand)) of->calibrate(message, impl_->now);
+    if (!message.empty()) return message;
+    throw validation::InputError("no object is held by a fork or spring, so there is nothing to calibrate");
+  });
 }
 
 SimulationState Simulation::save() const {
@@ -678,5 +642,19 @@ const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_
 const bodies::Changes& Simulation::object_changes() const { return impl_->objects.changes(); }
 const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().reported(); }
 tools::ToolState Simulation::tool(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
+
+double Simulation::elastic_energy() const {
+  double energy = 0.0;
+  for (const Hand& hand : impl_->hands) energy += hand.elastic_energy();
+  return energy;
+}
+
+double Simulation::energy() const { return elastic_energy() + impl_->objects.energy(); }
+
+ChangeReport reported(const Simulation& simulation, const std::function<std::string()>& change) {
+  const double elastic = simulation.elastic_energy(), all = simulation.energy();
+  const std::string message = change();
+  return {elastic, simulation.elastic_energy(), simulation.energy() - all, message};
+}
 
 }  // namespace spring_workbench::simulation

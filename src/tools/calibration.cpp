@@ -122,9 +122,8 @@ rod::PerDof world_stiffness(const rod::ForkSettings& fork, const WorldLoad& load
 }
 
 void damp_calibrated(rod::ForkSettings& fork) {
-  const double ratio = fork.damping_ratio.stretch;
-  const bool one_ratio = fork.damping_ratio == rod::PerDof{ratio, ratio, ratio};
-  if (one_ratio && fork.damping_law == rod::DampingLaw::per_dof) fork.damping_law = rod::DampingLaw::modal;
+  if (fork.damping_ratio.uniform() && fork.damping_law == rod::DampingLaw::per_dof)
+    fork.damping_law = rod::DampingLaw::modal;
 }
 
 }  // namespace spring_workbench::tools

@@ -84,12 +84,24 @@ def wrong_commands(path, root):
                     yield f"{path}: {file}: no such file"
 
 
+def arguments_left_out(reference, root):
+    """Arguments of launch files that their row in the table of doc/reference.md does not list."""
+    rows = dict(re.findall(r"^\| `(\w+\.launch)` \|(.*)$", reference.read_text(), re.M))
+    for file in sorted((root / "launch").glob("*.launch")):
+        for argument in ElementTree.parse(file).getroot().findall("arg"):
+            if "value" not in argument.attrib and f"`{argument.get('name')}`" not in rows.get(file.name, ""):
+                yield f"{file.name}: {argument.get('name')}"
+
+
 class Documents(unittest.TestCase):
     def test_links_lead_somewhere(self):
         self.assertEqual([fault for path in documents(ROOT) for fault in broken_links(path)], [])
 
     def test_commands_are_there(self):
         self.assertEqual([fault for path in documents(ROOT) for fault in wrong_commands(path, ROOT)], [])
+
+    def test_the_reference_lists_every_launch_argument(self):
+        self.assertEqual(list(arguments_left_out(ROOT / "doc/reference.md", ROOT)), [])
 
     def test_faults_are_found(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -105,6 +117,10 @@ class Documents(unittest.TestCase):
             )
             self.assertEqual(len(list(broken_links(path))), 2)
             self.assertEqual(len(list(wrong_commands(path, root))), 3)
+            path.write_text("| `x.launch` | runs | `scenes` a |\n")
+            self.assertEqual(list(arguments_left_out(path, root)), ["x.launch: scene"])
+            path.write_text("| `x.launch` | runs | `scene` a |\n")
+            self.assertEqual(list(arguments_left_out(path, root)), [])
 
 
 if __name__ == "__main__":

@@ -106,7 +106,7 @@ void check(const simulation::AdvanceReport& report, bool stable) {
   for (const std::optional<double>& bound : {report.local_error_bound, report.error_bound, report.angle_error_bound}) {
     require(!bound || (std::isfinite(*bound) && *bound >= 0.0), "an error bound is finite or none");
   }
-  require(std::isfinite(report.position_error + report.angle_error + report.energy_error + report.energy_added),
+  require(std::isfinite(report.position_error + report.angle_error + report.energy_error + report.energy_balance),
           "an estimate is finite");
 }
 
@@ -182,7 +182,7 @@ void steps(std::string_view bytes) {
       const long allocations = test_support::allocations - before;
       const bool first = i == 1 && (k < 3 || changes);
       require(first || allocations == 0, "a step takes nothing from the heap");
-      left -= std::max(1, report.steps + report.substeps);
+      left -= std::max(1, static_cast<int>(report.steps + report.substeps));
       check(report, judge.stable());
       check_finite(simulation);
       const bool arrives_elsewhere = drops_out && i == spans;

@@ -7,7 +7,7 @@ import rospy
 import rostest
 from dynamic_reconfigure.client import Client
 from spring_workbench.msg import ForkState
-from spring_workbench.srv import SetForkDofs, SetForkStiffness, SetIntegrator, SetIntegratorRequest
+from spring_workbench.srv import SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator, SetIntegratorRequest
 
 from stack import DEADLINE, Listener, wait_for
 
@@ -42,6 +42,21 @@ class LiveTuning(unittest.TestCase):
             and shown()["step"] == 0.005,
             "the changes to be shown",
         )
+
+    def test_damping_values_are_those_of_the_law_in_force(self):
+        set_damping = rospy.ServiceProxy("manipulation/set_damping", SetForkDamping)
+        self.assertTrue(set_damping(3.0, 2.0, 0.01, "coefficients", 0).success)
+        wait_for(lambda: self.client.get_configuration(timeout=DEADLINE)["bend_damping"] == 2.0, "the coefficients")
+        self.client.update_configuration({"bend_damping": 50.0})
+        state = self.fork.next(lambda m: m.bend_damping_coefficient == 50.0, "the new one")
+        self.assertEqual((state.damping_law, state.torsion_damping_coefficient), ("coefficients", 0.01))
+        self.assertTrue(set_damping(1.0, 1.0, 1.0, "modal", 0).success)
+        wait_for(lambda: self.client.get_configuration(timeout=DEADLINE)["bend_damping"] == 1.0, "the ratios")
+        self.assertEqual(self.client.update_configuration({"bend_damping": 11.0})["bend_damping"], 1.0)
+        self.client.update_configuration({"bend_damping": 0.5})
+        state = self.fork.next(lambda m: m.bend_damping_ratio == 0.5, "the new one")
+        self.assertEqual(state.damping_law, "per_dof")
+        self.assertTrue(set_damping(1.0, 1.0, 1.0, "", 0).success)
 
     def test_a_change_of_the_step_keeps_the_tolerance(self):
         set_integrator = rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)

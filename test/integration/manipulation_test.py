@@ -2,6 +2,7 @@
 """The node `manipulation` by its topics and services: scenes/single_box, a hand on its own clock."""
 import math
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -156,6 +157,9 @@ class Manipulation(unittest.TestCase):
         self.assertIn("stretch", " ".join(step.active))
         values = wait_for(lambda: diagnostic_values(self.diagnostics.messages, "physics loop"), "diagnostics")
         self.assertIn("deadlines missed", values)
+        counters = {name for name, kind in zip(StepReport.__slots__, StepReport._slot_types) if kind == "uint32"}
+        self.assertLessEqual(counters, set(values))
+        self.assertGreater(int(values["steps"]), 0)
         self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[seen:]), 0)
         self.assertAlmostEqual(
             float(diagnostic_values(self.diagnostics.messages, "tracker input")["rate [Hz]"]), 50.0, delta=1.0
@@ -273,6 +277,26 @@ class Manipulation(unittest.TestCase):
         self.hand.run(0.5)
         self.assertEqual(self.fork.next().held_object, "box")
 
+    def damping(self, *arguments):
+        """Calls ~set_damping; returns the fork's law, ratios and coefficients after it."""
+        self.call("set_damping", *arguments, 0)
+        m = self.fork.next()
+        ratios = (m.stretch_damping_ratio, m.bend_damping_ratio, m.torsion_damping_ratio)
+        return m.damping_law, ratios, (
+            m.stretch_damping_coefficient,
+            m.bend_damping_coefficient,
+            m.torsion_damping_coefficient,
+        )
+
+    def test_damping_values_are_those_of_the_law_in_force(self):
+        ones, soft, hard, three = (1.0, 1.0, 1.0), (3.0, 2.0, 0.01), (30.0, 20.0, 0.1), (0.5, 0.6, 0.7)
+        self.assertEqual(self.damping(*soft, "coefficients"), ("coefficients", ones, soft))
+        self.assertEqual(self.damping(*hard, ""), ("coefficients", ones, hard))
+        self.assertEqual(self.damping(*ones, "modal"), ("modal", ones, hard))
+        self.assertIn("per_dof", self.refused("set_damping", *three, "modal", 0))
+        self.assertEqual(self.damping(*ones, ""), ("modal", ones, hard))
+        self.assertEqual(self.damping(*three, ""), ("per_dof", three, hard))
+
     def test_every_integrator_carries_the_box(self):
         """Moves back and forth, so that the box does not sleep; explicit integrators need short steps."""
         self.lift()
@@ -308,14 +332,22 @@ class Manipulation(unittest.TestCase):
         self.call("calibrate")
         after = self.fork.next()
         self.assertNotEqual(before.stretch_stiffness, after.stretch_stiffness)
-        self.call("release")
+        strained = self.fork.next().elastic_energy
+        released = self.call("release")
+        self.assertAlmostEqual(released.elastic_energy_before, strained, delta=1e-9)
+        self.assertEqual(released.elastic_energy_after, 0.0)
+        self.assertAlmostEqual(released.energy_added, -strained, delta=1e-9)
         self.hand.run(0.2)
         self.assertEqual(self.fork.next().held_object, "")
         self.assertFalse(self.box().held)
 
     def test_reset_returns_all_objects(self):
         self.lift()
-        self.call("reset")
+        box, fork = self.box(), self.fork.next()
+        told = self.call("reset").message
+        added = float(re.search(r"; energy added: (\S+) J$", told).group(1))
+        fall = MASS * GRAVITY * (0.02 - box.pose.position.z)
+        self.assertAlmostEqual(added, fall - fork.elastic_energy - fork.kinetic_energy, delta=1e-6)
         box, fork = self.box(), self.fork.next()
         self.assertAlmostEqual(box.pose.position.z, 0.02, delta=1e-12)
         self.assertEqual(fork.held_object, "")

@@ -174,6 +174,96 @@ def test_changes_are_made_completely_or_not_at_all():
     assert (fork.damping_ratio.tolist(), fork.dofs) == ([0.5, 1.0, 1.0], [True, True, False])
 
 
+def test_damping_values_belong_to_a_law():
+    simulation = holding()
+    simulation.advance(1.0)
+    assert simulation.tool().damping_law == "per_dof"
+    simulation.change(damping_law="coefficients", damping_coefficient=[3.0, 2.0, 0.01])
+    simulation.change(damping=[30.0, None, None])
+    fork = simulation.tool()
+    assert (fork.damping_law, fork.damping_coefficient.tolist()) == ("coefficients", [30.0, 2.0, 0.01])
+    assert fork.damping_ratio.tolist() == [1.0, 1.0, 1.0]
+    simulation.change(damping_law="modal", damping=[0.5, 0.5, 0.5])
+    assert "per_dof" in simulation.change(damping=[0.5, 0.6, 0.7]).message
+    assert simulation.tool().damping_ratio.tolist() == [0.5, 0.6, 0.7]
+    with pytest.raises(sw.InputError, match="^damping_law: invalid value 'rayleigh': expected one of per_dof, modal, coefficients"):
+        simulation.change(damping_law="rayleigh")
+    with pytest.raises(sw.InputError, match="^fork.damping: .*per_dof"):
+        simulation.change(damping_law="modal")
+
+
+def test_one_hand_is_changed_alone():
+    simulation = holding()
+    simulation.advance(1.0)
+    simulation.change(stiffness=[700.0, None, None], hand=1)
+    simulation.select_tool("ray", hand=1)
+    assert [simulation.tool(hand).stiffness[0] for hand in (0, 1)] == [2000.0, 700.0]
+    assert [simulation.tool(hand).tool for hand in (0, 1)] == ["spring_fork", "ray"]
+    simulation.select_tool("spring_fork", hand=None)
+    assert [simulation.tool(hand).tool for hand in (0, 1)] == ["spring_fork", "spring_fork"]
+    with pytest.raises(sw.InputError, match="nothing to calibrate"):
+        simulation.calibrate(hand=1)
+    assert simulation.tool().stiffness[0] == 2000.0
+    assert "box" in simulation.calibrate(hand=0).message
+    assert simulation.tool().stiffness[0] != 2000.0
+    assert not simulation.release(hand=1) and simulation.held.tolist() == [True]
+    assert simulation.release(hand=0) and simulation.held.tolist() == [False]
+
+
+def test_changes_report_the_energy_that_they_add():
+    simulation = holding()
+    simulation.advance(10.0)
+    stored = simulation.elastic_energy
+    height = simulation.poses[0][2, 3]
+    assert stored == pytest.approx(0.5 * MASS * GRAVITY * simulation.tool().stretch, rel=1e-3)
+    assert simulation.energy == pytest.approx(stored + MASS * GRAVITY * height, rel=1e-9)
+    report = simulation.change(stiffness=[4000.0, None, None])
+    assert report.energy_added == pytest.approx(stored, rel=1e-6)
+    gained = report.elastic_energy_after - report.elastic_energy_before
+    assert report.energy_added == pytest.approx(gained, rel=1e-9)
+    report = simulation.edit("mass", "box", mass=2.0 * MASS)
+    assert report.energy_added == pytest.approx(MASS * GRAVITY * height, rel=1e-3)
+    stored = simulation.elastic_energy
+    assert simulation.select_tool("direct").energy_added == pytest.approx(-stored, rel=1e-6)
+
+
+def test_the_buttons_for_the_next_tool_and_the_clutch():
+    simulation = holding()
+    simulation.advance(1.0)
+    simulation.push_clutch(1.0, True)
+    simulation.push_next_tool(1.0)
+    simulation.push_next_tool(1.0, hand=1)
+    simulation.advance(1.1)
+    assert simulation.tool().clutch and not simulation.tool(1).clutch
+    assert simulation.tool().tool != "spring_fork" and simulation.held.tolist() == [True]
+    simulation.push_clutch(1.1, False)
+    simulation.advance(1.2)
+    assert not simulation.tool().clutch
+
+
+def test_the_tool_tells_the_force_along_and_across_it():
+    """It hangs down, so the weight only stretches it; then a force across bends it, too (the paper, section 4)."""
+    simulation = holding()
+    simulation.advance(10.0)
+    fork = simulation.tool()
+    weight = MASS * GRAVITY
+    assert fork.stretching_force == pytest.approx(weight, rel=1e-4)
+    assert fork.bending_force == pytest.approx(0.0, abs=1e-6) and fork.force_angle == pytest.approx(0.0, abs=1e-6)
+    assert 0.0 <= fork.load <= 1.0
+    fork = pressed([weight, 0.0, 0.0, 0.0, 0.0, 0.0])
+    assert fork.stretching_force == pytest.approx(weight, rel=1e-3)
+    assert fork.bending_force == pytest.approx(weight, rel=1e-3)
+    assert fork.force_angle == pytest.approx(np.pi / 4, rel=1e-3)
+
+
+def test_an_advance_counts_what_happened():
+    simulation = holding({"fork.stiffness.stretch": 1.0, "fork.damping.stretch": 0.0})
+    report = simulation.advance(1.0)
+    assert report.steps > 0 and report.collision_queries == 0
+    assert report.stops >= 0 and report.steps_fallback >= 0 and report.energy_error >= 0.0
+    assert report.local_error_bound is None
+
+
 def test_settings_are_those_of_a_file():
     fork = {"length": 0.25, "dofs": {"bend": False}}
     simulation = holding({"fork.stiffness.stretch": np.float64(800.0), "fork": fork})

@@ -11,13 +11,17 @@
 
 namespace spring_workbench::live {
 
+using simulation::ChangeReport;
+/// Poses of objects, by name.
+using Places = std::map<std::string, RigidTransform>;
+
 /// A change of a simulation that does not come from its hands, recorded so that it can be repeated. A kind ignores the
 /// members that it does not need.
 struct Command {
   enum class Kind {
     none,         ///< no change, or one that cannot be repeated: only the state after it is known
     select_tool,  ///< select `tool` in `hand`, or else in each
-    settings,     ///< apply `fork_change` to `hand`, or else to all; if `dynamics_change` is set, both to all
+    settings,     ///< apply `fork_change` to `hand`, or else to all, and `dynamics_change`
     calibrate,    ///< calibrate `hand`, or else all hands
     release,      ///< release what `hand`, or else each hand, holds
     clutch,       ///< set the clutch of `hand`, or else of all, to `on`
@@ -36,7 +40,7 @@ struct Command {
   bool on = false;
   simulation::ForkChange fork_change;
   simulation::DynamicsChange dynamics_change;
-  std::map<std::string, RigidTransform> places;
+  Places places;
   simulation::ObjectEdit edit;
   std::vector<std::string> roots;  ///< folders that the edit's URDF may be in; empty if the change is repeated
 
@@ -51,7 +55,7 @@ struct Command {
 
 /// Makes a change of any kind except `none`, `load_scene` and `undo`. Throws InputError, and changes nothing, if it is
 /// impossible.
-simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation);
+ChangeReport perform(const Command& command, simulation::Simulation& simulation);
 
 /// Returns the fork settings of each hand.
 std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation);

@@ -117,11 +117,11 @@ class SimulationRunner {
   std::optional<Committed> committed(const Wanted& wanted) const;
 
   /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
-  void restart();
+  ChangeReport restart();
   /// Undoes the last edit or restart (class Undo). The task restarts, as after an edit.
-  std::string undo();
+  ChangeReport undo() { return change("undo", Command(Command::Kind::undo)); }
   /// Loads another scene with the current settings. Throws InputError, and keeps the old scene, if they do not match.
-  void load(const scene::Scene& scene);
+  ChangeReport load(const scene::Scene& scene);
   /// Loads a scene with the tools, settings and poses of a saved state; nothing is held. The objects keep these poses
   /// when the first hand arrives and time restarts. Throws InputError, and changes nothing, if they do not match.
   void resume(const scene::Scene& scene, const simulation::SimulationState& state);
@@ -138,7 +138,7 @@ class SimulationRunner {
     return locked([this](const auto&) { return scene_; });
   }
   /// Makes a change of the current scene, which the journal calls `what`. Throws as perform().
-  simulation::ChangeReport change(const std::string& what, const Command& command);
+  ChangeReport change(const std::string& what, const Command& command);
   /// Measures a step of the largest length from the current state, which does not change; see LookAhead.
   StepTime time_of_step() {
     const Lock lock(mutex_);
@@ -186,9 +186,9 @@ class SimulationRunner {
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
   std::optional<std::int64_t> stamp() const;
-  void restart_with(const std::string& what, Command::Kind kind);
-  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, LookAhead ahead,
-                  std::map<std::string, RigidTransform> places);
+  ChangeReport restart_with(const std::string& what, Command::Kind kind);
+  ChangeReport begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
+                          LookAhead ahead, Places places);
   void scene_changed();
 
   mutable FairMutex mutex_;
@@ -203,7 +203,7 @@ class SimulationRunner {
   Pace pace_;
   bool was_behind_ = false;  ///< was behind at the last cycle, and no sample has arrived since
   HandTimes times_;
-  std::map<std::string, RigidTransform> places_;  ///< poses of objects, for the first epoch
+  Places places_;  ///< poses of objects, for the first epoch
   Undo undo_;
   std::size_t revision_ = 0;
   bool keeps_journal_ = false;

@@ -10,7 +10,7 @@
 namespace spring_workbench::live {
 
 /// Resets the simulation to time `now` [s], with all objects at rest at their current poses. Returns these poses.
-std::map<std::string, RigidTransform> put_to_rest(simulation::Simulation& simulation, double now);
+Places put_to_rest(simulation::Simulation& simulation, double now);
 
 /// Undo history: the states before the last 20 edits and resets.
 class Undo {
@@ -18,12 +18,12 @@ class Undo {
   /// Makes a change like live::perform(), and saves the state before an edit or a reset. Kind::undo restores the last
   /// saved state at the current time, with all objects at rest, nothing held and no samples; the report's message names
   /// the change that was undone. Throws InputError if there is nothing to undo.
-  simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation);
+  ChangeReport perform(const Command& command, simulation::Simulation& simulation);
   /// Returns true if there is nothing to undo.
   bool empty() const { return before_.empty(); }
 
  private:
-  simulation::ChangeReport take_back(simulation::Simulation& simulation);
+  std::string take_back(simulation::Simulation& simulation);
 
   std::deque<std::pair<std::string, simulation::SimulationState>> before_;
 };

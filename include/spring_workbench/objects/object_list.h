@@ -33,6 +33,8 @@ class ObjectList {
     state(object).highlighted = true;
     highlighted_.push_back(object);
   }
+  /// Kinetic and potential energy of all objects [J]; the latter is zero at z = 0.
+  double energy() const;
   bool with_contact() const { return scene_.contact != scene::ContactMode::none; }
 
  protected:

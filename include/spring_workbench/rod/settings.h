@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "spring_workbench/math/state_archive.h"
@@ -14,6 +15,8 @@ struct PerDof {
   double bend = 0.0;     ///< of the deflection of the tip across the rod
   double torsion = 0.0;  ///< of the twist about the rod
 
+  /// Whether all three are the same.
+  bool uniform() const { return stretch == bend && bend == torsion; }
   void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }
 };
 
@@ -69,6 +72,14 @@ struct ForkSettings {
   ForkDofs dofs;                                 ///< keys `fork.dofs.…`
   double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: T of a DOF that is switched off while
                                   ///< strained; from rest its strain falls as (1 + t/T) exp(−t/T): to 1 % in 6.6 T
+
+  /// What can be changed while an object is held.
+  auto changeable() const { return std::tie(dofs, stiffness, damping_ratio, damping_coefficient, damping_law); }
+  /// The damping values in force: those that `damping_law` uses.
+  PerDof& damping() { return damping_law == DampingLaw::coefficients ? damping_coefficient : damping_ratio; }
+  const PerDof& damping() const {
+    return damping_law == DampingLaw::coefficients ? damping_coefficient : damping_ratio;
+  }
 };
 
 /// Coefficient [N·s/m] of the damper in parallel with the fork's stretch spring, for a body of `mass` [kg] that is held

@@ -52,7 +52,9 @@ struct ForkChange {
   rod::PerDofChange<double> stiffness;            ///< [N/m, N/m, N·m/rad]
   rod::PerDofChange<double> damping_ratio;        ///< –
   rod::PerDofChange<double> damping_coefficient;  ///< [N·s/m, N·s/m, N·m·s/rad]
-  std::optional<rod::DampingLaw> damping_law;     ///< what these damping values mean
+  std::optional<rod::DampingLaw> damping_law;     ///< which of these damping values act
+  rod::PerDofChange<double> damping;  ///< values of the law in force after the change; three different ones turn the
+                                      ///< law `modal`, unless the change asks for it, into `per_dof`
 
   bool empty() const { return dofs.empty() && !changes_springs(); }
   bool changes_springs() const;

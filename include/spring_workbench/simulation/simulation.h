@@ -2,6 +2,7 @@
 
 #include <bitset>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -53,7 +54,7 @@ std::string to_hex(std::uint64_t hash);
 
 /// Report on a call of `advance` or a sequence of calls.
 struct AdvanceReport {
-  int steps = 0;                ///< integrator steps taken
+  std::int64_t steps = 0;       ///< integrator steps taken
   double simulated_time = 0.0;  ///< [s]
   double position_error = 0.0;  ///< largest estimate of a step's local error [m]
   double angle_error = 0.0;     ///< largest estimate of a step's local error in angle [rad]
@@ -62,12 +63,12 @@ struct AdvanceReport {
   std::optional<double> error_bound;  ///< of the error in position since the grasp or the last step without one [m]
   std::optional<double> angle_error_bound;  ///< the same in angle [rad]
   int steps_unbounded = 0;                  ///< integrations (in contact several a step) without a bound
-  double energy_added = 0.0;       ///< energy of the held object and the fork beyond the work of hand, gravity, damping
+  double energy_balance = 0.0;     ///< energy of the held object and the fork beyond the work of hand, gravity, damping
                                    ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
   int steps_among_movable = 0;     ///< steps near other movable objects (contact mode `dynamic`)
-  int collision_queries = 0;       ///< queries to the collision library
-  int substeps = 0;           ///< steps discarded and repeated as shorter ones: equation not solved, or error too large
+  std::int64_t collision_queries = 0;  ///< queries to the collision library
+  std::int64_t substeps = 0;  ///< steps discarded and repeated as shorter ones: equation not solved, or error too large
   int stops = 0;              ///< steps that met the end of the fork's range
   int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
@@ -84,10 +85,11 @@ struct AdvanceReport {
   void add(const AdvanceReport& later);
 };
 
-/// Effect of a change of the fork on its stored energy.
+/// Effect of a change on the energy.
 struct ChangeReport {
-  double elastic_energy_before = 0.0;  ///< [J]
-  double elastic_energy_after = 0.0;   ///< [J]
+  double elastic_energy_before = 0.0;  ///< stored in the tools just before the change [J]
+  double elastic_energy_after = 0.0;   ///< and just after it [J]
+  double energy_added = 0.0;           ///< what the change adds to Simulation::energy() [J]
   std::string message;                 ///< one line for the user
 };
 
@@ -155,21 +157,21 @@ class Simulation {
   /// Places these objects at rest at the given poses; all hands release first. Throws InputError, and changes nothing,
   /// if a name is not that of a movable object or a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
-  /// Every hand releases its object. Returns false if nothing was held.
-  bool release();
-  bool release(std::size_t hand);  ///< the same for one hand
+  /// One hand or, with std::nullopt, each releases its object. Returns false if nothing was held.
+  bool release(std::optional<std::size_t> hand = std::nullopt);
 
   // Changes while running. The pose and twist of the object do not jump. An impossible change throws InputError and
   // changes nothing.
   /// Changes the tool in one hand or, with std::nullopt, in each. The hand keeps its object, and the new tool starts
   /// without strain; the probe cannot hold an object, so it is released.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = 0);
-  /// Changes the fork in one hand or, with std::nullopt, in each.
-  ChangeReport change(const ForkChange& change, std::optional<std::size_t> hand = std::nullopt);
-  /// Changes integrator, step or tolerance of all hands. Throws InputError if a value is invalid.
-  void change(const DynamicsChange& change);
-  /// Makes both changes, or neither.
-  void change(const ForkChange& fork_change, const DynamicsChange& dynamics_change);
+  /// Changes the fork in one hand or, with std::nullopt, in each, and integrator, step or tolerance of all hands.
+  ChangeReport change(const ForkChange& fork, const DynamicsChange& dynamics,
+                      std::optional<std::size_t> hand = std::nullopt);
+  ChangeReport change(const ForkChange& fork, std::optional<std::size_t> hand = std::nullopt) {
+    return change(fork, {}, hand);
+  }
+  ChangeReport change(const DynamicsChange& dynamics) { return change({}, dynamics); }
   /// Adds, moves or removes an object, or changes its mass or friction; the state of everything else is kept. Added and
   /// moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed one fall. A
   /// removed object is released first. A moved object keeps its start pose, to which reset() returns it. The URDF of an
@@ -185,6 +187,10 @@ class Simulation {
   const std::vector<bodies::BodyState>& objects() const;  ///< the movable objects, in the scene's order
   const bodies::Changes& object_changes() const;          ///< changes of the states in objects()
   tools::ToolState tool(std::size_t hand = 0) const;      ///< state of the tool in a hand
+  double elastic_energy() const;                          ///< stored in all tools [J]
+  /// elastic_energy(), and kinetic and potential energy of the objects (zero at z = 0) [J]; without what is stored in
+  /// compliant materials.
+  double energy() const;
   /// The current contacts, and those that ended in the last call of advance().
   const std::vector<contact::ContactState>& contacts() const;
 
@@ -204,5 +210,8 @@ class Simulation {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Makes a change of the simulation and reports the energy before and after it; `change` returns the message.
+ChangeReport reported(const Simulation& simulation, const std::function<std::string()>& change);
 
 }  // namespace spring_workbench::simulation

@@ -24,12 +24,13 @@ struct ToolState {
   std::string touched;            ///< the body that the probe touches, "workbench" for the bench; otherwise empty
   rod::ShapeKind shape = rod::ShapeKind::linear;                                ///< shape model of the fork
   dynamics::IntegratorKind integrator = dynamics::IntegratorKind::exponential;  ///< of its equation of motion
-  rod::ForkDofs dofs;         ///< degrees of freedom of the fork that are switched on
-  double length = 0.0;        ///< rest length [m]
-  rod::PerDof stiffness;      ///< of stretching and bending [N/m] and of torsion [N·m/rad]
-  rod::PerDof damping_ratio;  ///< of stretching, bending and torsion; not in use with the damping law `coefficients`
-  rod::StrainVector strain;   ///< all coordinates of the shape model; zero while nothing is held
-  double stretch = 0.0;       ///< extension along the rod [m]
+  rod::ForkDofs dofs;                              ///< degrees of freedom of the fork that are switched on
+  double length = 0.0;                             ///< rest length [m]
+  rod::PerDof stiffness;                           ///< of stretching and bending [N/m] and of torsion [N·m/rad]
+  rod::PerDof damping_ratio, damping_coefficient;  ///< the latter with the law `coefficients`: N·s/m, N·s/m, N·m·s/rad
+  rod::DampingLaw damping_law = rod::DampingLaw::per_dof;  ///< the law in force
+  rod::StrainVector strain;                          ///< all coordinates of the shape model; zero while nothing is held
+  double stretch = 0.0;                              ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                              ///< twist angle [rad]
   RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus in world

@@ -62,7 +62,7 @@ std::string Summary::json() const {
   out.imbue(std::locale::classic());
   out << "{\"steps\": " << advance.steps << ", \"simulated_time\": " << number(advance.simulated_time)
       << ", \"wall_time\": " << number(wall_time)
-      << ", \"time_per_step\": " << number(advance.steps > 0 ? wall_time / advance.steps : 0.0)
+      << ", \"time_per_step\": " << number(advance.steps > 0 ? wall_time / static_cast<double>(advance.steps) : 0.0)
       << ", \"outputs\": " << outputs << ", \"samples\": " << samples << ", \"samples_rejected\": " << samples_rejected
       << ", \"rejected\": {" << validation::join(rejected) << "}, \"dropouts\": " << gate.dropouts
       << ", \"reacquisitions\": " << hand.reacquisitions << ", \"losses\": " << hand.losses
@@ -71,7 +71,7 @@ std::string Summary::json() const {
       << ", \"angle_error_bound\": " << bound(advance.angle_error_bound)
       << ", \"local_error_bound\": " << bound(advance.local_error_bound)
       << ", \"steps_unbounded\": " << advance.steps_unbounded
-      << ", \"energy_balance\": " << number(advance.energy_added)
+      << ", \"energy_balance\": " << number(advance.energy_balance)
       << ", \"stiffest_omega_dt\": " << number(advance.stiffest_omega_dt) << ", \"contacts\": " << contacts_
       << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
       << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback

@@ -102,16 +102,20 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
 
 DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop) const {
   ros_common::DiagnosticStatusBuilder status(name_ + ": physics loop", "simulation");
+  const simulation::AdvanceReport& total = loop.advance;
   status.add("cycles", loop.cycles)
       .add("deadlines missed", loop.deadlines_missed)
-      .add("steps rejected", loop.advance.steps_rejected)
-      .add("steps with unsolved contacts", loop.advance.steps_unsolved)
-      .add("time lost in steps [s]", loop.advance.time_lost)
-      .add("steps by the fallback", loop.advance.steps_fallback)
-      .add("largest bound on a run's error [m]",
-           loop.advance.error_bound.value_or(std::numeric_limits<double>::infinity()))
-      .add("steps without such a bound", loop.advance.steps_unbounded)
-      .add("stops at the end of the fork's range", loop.advance.stops)
+      .add("steps", total.steps)
+      .add("substeps", total.substeps)
+      .add("stops", total.stops)
+      .add("steps_fallback", total.steps_fallback)
+      .add("steps_blocked", total.steps_blocked)
+      .add("steps_unsolved", total.steps_unsolved)
+      .add("steps_rejected", total.steps_rejected)
+      .add("steps_unbounded", total.steps_unbounded)
+      .add("collision_queries", total.collision_queries)
+      .add("time_lost [s]", total.time_lost)
+      .add("error_bound [m]", total.error_bound.value_or(std::numeric_limits<double>::infinity()))
       .add("time skipped [s]", loop.time_skipped)
       .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
@@ -124,7 +128,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
                  "the ROS master does not answer: current connections stay, new ones are impossible");
   }
   if (!loop.checkpoint_error.empty()) status.raise(DiagnosticStatus::WARN, loop.checkpoint_error);
-  if (loop.advance.steps_rejected > last_loop_.advance.steps_rejected) {
+  if (total.steps_rejected > last_loop_.advance.steps_rejected) {
     status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");

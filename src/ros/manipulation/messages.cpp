@@ -37,9 +37,13 @@ ForkState to_message(const tools::ToolState& tool, double fork_diameter) {
   message.stretch_stiffness = tool.stiffness.stretch;
   message.bend_stiffness = tool.stiffness.bend;
   message.torsion_stiffness = tool.stiffness.torsion;
+  message.damping_law = validation::name_of(tool.damping_law);
   message.stretch_damping_ratio = tool.damping_ratio.stretch;
   message.bend_damping_ratio = tool.damping_ratio.bend;
   message.torsion_damping_ratio = tool.damping_ratio.torsion;
+  message.stretch_damping_coefficient = tool.damping_coefficient.stretch;
+  message.bend_damping_coefficient = tool.damping_coefficient.bend;
+  message.torsion_damping_coefficient = tool.damping_coefficient.torsion;
   message.strain.assign(tool.strain.data(), tool.strain.data() + tool.strain.size());
   message.stretch = tool.stretch;
   message.bend = {tool.bend.x(), tool.bend.y()};
@@ -150,8 +154,8 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.error_bound = report.error_bound.value_or(none);
   message.angle_error_bound = report.angle_error_bound.value_or(none);
   message.steps_unbounded = static_cast<uint32_t>(report.steps_unbounded);
-  message.energy_added = report.energy_added;
-  message.omega_dt = report.stiffest_omega_dt;
+  message.energy_balance = report.energy_balance;
+  message.stiffest_omega_dt = report.stiffest_omega_dt;
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);
   message.substeps = static_cast<uint32_t>(report.substeps);
   message.stops = static_cast<uint32_t>(report.stops);

@@ -27,6 +27,14 @@ void fill(const simulation::ChangeReport& report, Response& response) {
   response.message = report.message;
   response.elastic_energy_before = report.elastic_energy_before;
   response.elastic_energy_after = report.elastic_energy_after;
+  response.energy_added = report.energy_added;
+}
+
+/// For a response that has no field for the energy.
+std::string with_energy(const std::string& message, const simulation::ChangeReport& report) {
+  char text[50];
+  std::snprintf(text, sizeof text, "; energy added: %.9g J", report.energy_added);
+  return message + text;
 }
 
 /// `stylus`: 1, 2, …; 0: all.
@@ -72,12 +80,9 @@ void set_stiffness(live::SimulationRunner& runner, const SetForkStiffness::Reque
 
 void set_damping(live::SimulationRunner& runner, const SetForkDamping::Request& request,
                  SetForkDamping::Response& response) {
-  const rod::PerDofChange<double> numbers{request.stretch, request.bend, request.torsion};
   simulation::ForkChange change;
-  if (!request.law.empty()) {
-    change.damping_law = validation::named<rod::DampingLaw>(request.law, "", "law");
-  }
-  (change.damping_law == rod::DampingLaw::coefficients ? change.damping_coefficient : change.damping_ratio) = numbers;
+  change.damping = {request.stretch, request.bend, request.torsion};
+  if (!request.law.empty()) change.damping_law = validation::named<rod::DampingLaw>(request.law, "", "law");
   change_fork(runner, change, request.stylus, "set_damping", response);
 }
 
@@ -89,7 +94,7 @@ void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request
   change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "", "name");
   if (request.step != 0.0) change.step = request.step;
   if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
-  runner.change("set_integrator", command);
+  fill(runner.change("set_integrator", command), response);
   const dynamics::DynamicsSettings now =
       runner.locked([](const simulation::Simulation& s) { return s.settings().dynamics; });
   const live::StepTime step = runner.time_of_step();
@@ -104,7 +109,7 @@ void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request
 void load_scene(live::SimulationRunner& runner, const std::vector<std::string>& roots,
                 const LoadScene::Request& request, LoadScene::Response& response) {
   const scene::Scene scene = scene::load_scene(request.scene, roots);
-  runner.load(scene);
+  fill(runner.load(scene), response);
   response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
   if (!scene.warnings.empty()) response.message += "; " + validation::join(scene.warnings, "; ");
 }
@@ -142,12 +147,12 @@ void calibrate(live::SimulationRunner& runner, const Calibrate::Request& request
 void set_clutch(live::SimulationRunner& runner, const SetClutch::Request& request, SetClutch::Response& response) {
   live::Command command = command_of(runner, live::Command::Kind::clutch, request.stylus);
   command.on = request.on != 0;
-  response.message = runner.change("clutch", command).message;
+  fill(runner.change("clutch", command), response);
 }
 
 void release(live::SimulationRunner& runner, const Release::Request& request, Release::Response& response) {
   const live::Command command = command_of(runner, live::Command::Kind::release, request.stylus);
-  response.message = runner.change("release", command).message;
+  fill(runner.change("release", command), response);
 }
 
 }  // namespace
@@ -195,11 +200,13 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
   change("release", release, Release());
   change("clutch", set_clutch, SetClutch());
   const auto reset = [&runner](auto&, auto& response) {
-    runner.restart();
-    response.message = "all objects are back at their start poses";
+    response.message = with_energy("all objects are back at their start poses", runner.restart());
   };
   serve("reset", reset, std_srvs::Trigger());
-  const auto undo = [&runner](auto&, auto& response) { response.message = "undone: " + runner.undo(); };
+  const auto undo = [&runner](auto&, auto& response) {
+    const simulation::ChangeReport report = runner.undo();
+    response.message = with_energy("undone: " + report.message, report);
+  };
   serve("undo", undo, std_srvs::Trigger());
   return servers;
 }

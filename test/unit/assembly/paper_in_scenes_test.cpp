@@ -126,7 +126,7 @@ Counts run_open(const scene::Scene& scene, const Case& c, std::mt19937& random) 
   EXPECT_TRUE(object(simulation, body.name).X_WO.matrix().allFinite());
   EXPECT_LT(object(simulation, body.name).X_WO.translation().norm(), 10.0);
   EXPECT_EQ(simulation.tool().held_object, body.name);
-  return {report.steps, report.steps_rejected, report.steps_fallback};
+  return {static_cast<int>(report.steps), report.steps_rejected, report.steps_fallback};
 }
 
 /// Runs the whole task of the scene.

@@ -318,9 +318,13 @@ Command random_command(std::mt19937& random) {
 void change_at_random(SimulationRunner& runner, std::mt19937& random) {
   const Command command = random_command(random);
   try {
-    if (command.kind == Command::Kind::restart) return runner.restart();
-    if (command.kind == Command::Kind::load_scene) return runner.load(two_boxes());
-    runner.change("at random", command);
+    if (command.kind == Command::Kind::restart) {
+      runner.restart();
+    } else if (command.kind == Command::Kind::load_scene) {
+      runner.load(two_boxes());
+    } else {
+      runner.change("at random", command);
+    }
   } catch (const validation::InputError&) {  // nothing is held
   }
 }

@@ -1,6 +1,8 @@
 // Edits and resets of a live run, and undo.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
@@ -78,9 +80,9 @@ TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
   EXPECT_EQ(bench.placements(), 0u);
   bench.continue_with(30);
   const double now = bench.time();
-  EXPECT_EQ(bench.runner.undo(), "remove: other");
+  EXPECT_EQ(bench.runner.undo().message, "remove: other");
   EXPECT_EQ(bench.objects().size(), 1u);
-  EXPECT_EQ(bench.runner.undo(), "remove: held");
+  EXPECT_EQ(bench.runner.undo().message, "remove: held");
   EXPECT_EQ(bench.time(), now);
   ASSERT_EQ(bench.objects().size(), 2u);
   EXPECT_EQ(bench.placements(), 1u);
@@ -100,7 +102,7 @@ TEST(Undo, TakesAResetBack) {
   bench.runner.restart();
   EXPECT_EQ(bench.objects()[0].X_WO.translation().z(), 0.05);
   bench.continue_with(5);
-  EXPECT_EQ(bench.runner.undo(), "reset");
+  EXPECT_EQ(bench.runner.undo().message, "reset");
   EXPECT_EQ(bench.objects()[0].X_WO.matrix(), lifted.matrix());
 }
 
@@ -148,6 +150,31 @@ TEST(Undo, AndEditsAreReplayedFromTheJournalBitByBit) {
   EXPECT_EQ(replayer.changes().restored, 0u);
   EXPECT_EQ(replayer.simulation()->objects().size(), 2u);
   EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
+}
+
+/// Of every change, also of those that replace the whole state: the difference of the energies before and after it.
+TEST(Energy, EveryLiveChangeReportsWhatItAdds) {
+  Bench bench;
+  const auto energy = [&] { return bench.runner.locked([](const auto& s) { return s.energy(); }); };
+  const auto adds = [&](const char* what, double expected, const std::function<ChangeReport()>& change) {
+    const double before = energy();
+    const ChangeReport report = change();
+    EXPECT_NEAR(report.energy_added, energy() - before, 1e-12) << what;
+    EXPECT_NEAR(report.energy_added, expected, 1e-6) << what;
+  };
+  const auto make = [&](Command::Kind kind) { return bench.runner.change("test", Command(kind)); };
+  bench.continue_with(120);
+  const double strain = bench.runner.locked([](const auto& s) { return s.tool().elastic_energy; });
+  ASSERT_GT(strain, 1e-3);
+  adds("settings", 0.0, [&] { return make(Command::Kind::settings); });
+  adds("clutch", 0.0, [&] { return make(Command::Kind::clutch); });
+  adds("release", -strain, [&] { return make(Command::Kind::release); });
+  const double lifted = energy(), at_rest = 2.0 * 9.81 * 0.05;  // two cubes of 1 kg on the bench
+  const Vector3d place = bench.objects()[0].X_WO.translation();
+  adds("reset", at_rest - lifted, [&] { return bench.runner.restart(); });
+  const double potential = 9.81 * place.z() + 0.5 * at_rest;  // undone: there, and at rest
+  adds("undo", potential - at_rest, [&] { return bench.runner.undo(); });
+  adds("load", at_rest - potential, [&] { return bench.runner.load(two_cubes()); });
 }
 
 /// A restarted node has the edits.

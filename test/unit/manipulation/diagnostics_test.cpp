@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <regex>
+#include <set>
+
+#include "spring_workbench/StepReport.h"
+
 namespace spring_workbench::manipulation::diagnostics_test {
 namespace {
 
@@ -20,6 +26,47 @@ TEST(ManipulationDiagnostics, TellThatTheLoopWaitsForMessages) {
       if (value.key == "waits for unsent messages") said = value.value;
     }
     EXPECT_EQ(said, std::to_string(waits));
+  }
+}
+
+/// Every counter of ~steps, under its name there; which are counters, the message itself says: all that are integers.
+TEST(ManipulationDiagnostics, HaveEveryCounterOfSteps) {
+  ManipulationDiagnostics diagnostics("node", 0.5);
+  const auto values = diagnostics.report(std::vector<TrackerInput>(1), LoopStatistics(), 0.0).back().values;
+  std::set<std::string> keys;
+  for (const diagnostic_msgs::KeyValue& value : values) keys.insert(value.key);
+  const std::string definition = ros::message_traits::definition<StepReport>();
+  const std::string own = definition.substr(0, definition.find("===="));  // without those of the types that it uses
+  const std::regex counter(R"((?:^|\n)u?int\d+ (\w+))");
+  std::size_t counters = 0;
+  for (std::sregex_iterator field(own.begin(), own.end(), counter), end; field != end; ++field, ++counters)
+    EXPECT_EQ(keys.count((*field)[1]), 1u) << (*field)[1];
+  EXPECT_GE(counters, 9u);
+  EXPECT_EQ(keys.count("time_lost [s]"), 1u);
+}
+
+/// They count over the whole run: a report of one cycle adds to each of them.
+TEST(ManipulationDiagnostics, CountOverTheWholeRun) {
+  LoopStatistics loop;
+  simulation::AdvanceReport cycle;
+  cycle.steps = 1;
+  cycle.substeps = 2;
+  cycle.stops = 3;
+  cycle.steps_fallback = 4;
+  cycle.steps_blocked = 5;
+  cycle.steps_unsolved = 6;
+  cycle.steps_rejected = 7;
+  cycle.steps_unbounded = 8;
+  cycle.collision_queries = 9;
+  for (int k = 0; k < 2; ++k) loop.advance.add(cycle);
+  std::map<std::string, std::string> said;
+  ManipulationDiagnostics diagnostics("node", 0.5);
+  const auto values = diagnostics.report(std::vector<TrackerInput>(1), loop, 0.0).back().values;
+  for (const diagnostic_msgs::KeyValue& value : values) said[value.key] = value.value;
+  int expected = 0;
+  for (const char* key : {"steps", "substeps", "stops", "steps_fallback", "steps_blocked", "steps_unsolved",
+                          "steps_rejected", "steps_unbounded", "collision_queries"}) {
+    EXPECT_EQ(said[key], std::to_string(expected += 2)) << key;
   }
 }
 

@@ -245,6 +245,27 @@ TEST_F(LoadScene, DegenerateSizesAreRefused) {
   }
 }
 
+/// It is not needed for contact, so the scene is loaded with a warning; what is left of the link is drawn.
+TEST_F(LoadScene, AMissingVisualMeshIsNotDrawn) {
+  const std::string ball = "<visual><geometry><sphere radius='0.1'/></geometry></visual>";
+  for (const std::string name : {"not_there.stl", "package://no_such_package/a.stl", "file:///not/there.dae"}) {
+    const std::string mesh = "<geometry><mesh filename='" + name + "'/></geometry>";
+    const Scene scene = load_part(unit_box + "<visual>" + mesh + "</visual>" + ball);
+    EXPECT_TRUE(warned(scene, "scene.urdf:2: link 'part': mesh: ")) << name;
+    EXPECT_TRUE(warned(scene, name + ": it is not drawn"));
+    const Body& part = scene.bodies[0];
+    EXPECT_NEAR(part.mass_properties.mass, 8.0, 1e-12);
+    ASSERT_EQ(part.visual.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<geometry::Sphere>(part.visual[0].geometry));
+    EXPECT_TRUE(std::holds_alternative<geometry::Box>(
+        load_part(unit_box + "<visual>" + mesh + "</visual>").bodies[0].visual.at(0).geometry));
+    EXPECT_TRUE(has(part_refusal("<collision>" + mesh + "</collision>" + ball), name)) << "it is needed for contact";
+  }
+  write_mesh("broken.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_TRUE(has(part_refusal(unit_box + "<visual><geometry><mesh filename='broken.obj'/></geometry></visual>"),
+                  "broken.obj"));
+}
+
 TEST_F(LoadScene, WhatUrdfdomRefusesIsRefusedWithItsReasonAndNothingOnTheConsole) {
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
@@ -614,6 +635,12 @@ TEST_F(LoadScene, ReadsFromTheFoldersAllowedAndFromPackagesAlone) {
        {"elsewhere/scene.urdf", "allowed/../elsewhere/scene.urdf", "allowed/link.urdf", "allowed/up.urdf"}) {
     EXPECT_TRUE(has(refusal_from(folder_.path(path), roots), "one of the folders")) << path;
     EXPECT_EQ(refusal_from(folder_.path(path), {}), "(loaded)") << path;
+  }
+  for (const std::string mesh : {"t.obj", "nothing.obj"}) {  // nor does a mesh that is only drawn disclose them
+    folder_.write("allowed/drawn.urdf",
+                  "<robot name='r'><link name='a'><visual><geometry><mesh filename='../elsewhere/" + mesh +
+                      "'/></geometry></visual></link></robot>");
+    EXPECT_TRUE(has(refusal_from(folder_.path("allowed/drawn.urdf"), roots), "one of the folders")) << mesh;
   }
   folder_.write("elsewhere/package.xml", "<package><name>somewhere_else</name></package>");
   const char* before = std::getenv("ROS_PACKAGE_PATH");

@@ -91,6 +91,26 @@ TEST(Clutch, OnAndOffAtFullSpeedNothingJumps) {
   }
 }
 
+/// With a tool that has springs neither strain nor twist jumps, so a clutch adds no energy.
+TEST(Clutch, OnAndOffAtFullSpeedNoEnergyIsAdded) {
+  for (const tools::Tool tool : {tools::Tool::spring_fork, tools::Tool::spring}) {
+    SimulationSettings set;
+    set.tool = tool;
+    Simulation simulation(one_box(), set);
+    push_move(simulation, 0.0, 2.0, above, above + Vector3d(0.4, 0.0, 0.1), 1.0);
+    simulation.push_button(0.0, true);
+    for (const double t : {0.513, 0.76}) {
+      simulation.advance(t);
+      const double before = simulation.energy();
+      ASSERT_GT(simulation.elastic_energy(), 1e-3);
+      simulation.push_clutch(t, t < 0.6);
+      simulation.advance(t);
+      ASSERT_EQ(simulation.tool().clutch, t < 0.6);
+      EXPECT_NEAR(simulation.energy(), before, 1e-12) << t;
+    }
+  }
+}
+
 /// After the clutch, the motion is that of a hand that had been there all the time.
 TEST(Clutch, AfterItTheToolGoesAsOfAHandThatIsThere) {
   const Vector3d by(0.1, -0.2, 0.05);

@@ -199,7 +199,7 @@ TEST(ManyHands, AFirstSampleThatIsARoundingErrorLaterIsOfTheSameTime) {
       for (int k = 0; k <= 20; ++k) s.push_stylus({0.02 * k, pointing_down(Vector3d(0.3, 0.0, 0.7))});
       for (int k = 5; k <= 20; ++k) s.push_stylus({0.02 * k + later, pointing_down(above)}, 1);
       s.push_button(0.1 + later, true, 1);
-      int acts = 0, steps = 0;
+      std::int64_t acts = 0, steps = 0;
       for (int k = 1; k <= 20; ++k) {
         ASSERT_NO_THROW(steps += s.advance(0.02 * k).steps) << later;
         const tools::ToolState f = s.tool(1);

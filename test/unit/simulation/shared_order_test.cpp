@@ -308,7 +308,7 @@ TEST(SharedLaw, EnergyIsAccountedFor) {
     const auto added = [&](double step) {
       Simulation simulation = c.setup(stepping(dynamics::IntegratorKind::exponential, step), false);
       double sum = 0.0;
-      for (double t = sample; t < duration; t += sample) sum += std::abs(simulation.advance(t).energy_added);
+      for (double t = sample; t < duration; t += sample) sum += std::abs(simulation.advance(t).energy_balance);
       return sum;
     };
     const double fine = added(1e-3);

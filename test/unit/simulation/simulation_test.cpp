@@ -321,6 +321,93 @@ TEST_F(Switching, DampingLaws) {
   EXPECT_THROW(Simulation(simulation.scene(), settings), validation::InputError);
 }
 
+/// Values without a law are those of the law that is in force where they are applied.
+TEST_F(Switching, DampingValuesAreThoseOfTheLawInForce) {
+  using Law = rod::DampingLaw;
+  const auto values = [](const rod::PerDof& of, std::optional<Law> law = std::nullopt) {
+    ForkChange change;
+    change.damping = {of.stretch, of.bend, of.torsion};
+    change.damping_law = law;
+    return change;
+  };
+  const rod::ForkSettings& fork = simulation.fork_settings();
+  const rod::PerDof small{3.0, 2.0, 0.01}, large{30.0, 20.0, 0.1}, ratio{0.2, 0.2, 0.2}, other{0.7, 0.5, 0.7};
+  simulation.change(values(small, Law::coefficients));
+  simulation.change(values(large));
+  EXPECT_EQ(fork.damping_law, Law::coefficients);
+  EXPECT_EQ(fork.damping_coefficient, large);
+  EXPECT_EQ(fork.damping_ratio, ratio);
+  EXPECT_EQ(simulation.tool().damping_law, Law::coefficients);
+  EXPECT_EQ(simulation.tool().damping_coefficient, large);
+  ForkChange soft = values(ratio, Law::modal);
+  simulation.change(soft);
+  soft.damping_law = std::nullopt;
+  simulation.change(soft);
+  EXPECT_EQ(fork.damping_law, Law::modal);
+  EXPECT_EQ(fork.damping_coefficient, large);
+  EXPECT_THROW(simulation.change(values(other, Law::modal)), validation::InputError);
+  EXPECT_EQ(fork.damping_ratio, ratio);
+  // One for each DOF: only per_dof has that. It is what the user sees in the message.
+  EXPECT_NE(simulation.change(values(other)).message.find("per_dof"), std::string::npos);
+  EXPECT_EQ(fork.damping_law, Law::per_dof);
+  EXPECT_EQ(fork.damping_ratio, other);
+  expect_no_jump();
+}
+
+TEST_F(Switching, WhatOneForkAllowsDoesNotDependOnTheOthers) {
+  ForkChange modal, three;
+  modal.damping_law = rod::DampingLaw::modal;
+  three.damping_ratio = {0.5, 0.6, 0.7};
+  simulation.change(modal, 1);
+  simulation.change(three, 0);
+  EXPECT_EQ(simulation.fork_settings(0).damping_ratio, (rod::PerDof{0.5, 0.6, 0.7}));
+  EXPECT_THROW(simulation.change(three), validation::InputError);
+  expect_no_jump();
+}
+
+/// Energy of the box by its own formula.
+double energy_of(const Simulation& simulation) {
+  const bodies::BodyState& box = simulation.objects()[0];
+  const scene::MassProperties& mass = simulation.scene().bodies[0].mass_properties;
+  const Matrix3d inertia_W = box.X_WO.linear() * mass.inertia_O * box.X_WO.linear().transpose();
+  return 0.5 * mass.mass * box.V_WO_W.linear.squaredNorm() +
+         0.5 * box.V_WO_W.angular.dot(inertia_W * box.V_WO_W.angular) + mass.mass * 9.81 * box.X_WO.translation().z();
+}
+
+TEST_F(Switching, EveryChangeReportsTheEnergyThatItAdds) {
+  const double begin = energy_of(simulation), stored = simulation.tool().elastic_energy;
+  ASSERT_GT(stored, 1e-3);
+  EXPECT_NEAR(simulation.energy(), begin + stored, 1e-12);
+  ForkChange stiffer;
+  stiffer.stiffness = {4000.0, 1000.0, 10.0};  // twice the stiffness
+  EXPECT_NEAR(simulation.change(stiffer).energy_added, stored, 1e-9 * stored);
+  ObjectEdit heavier{ObjectEdit::Action::mass, "box", "", std::nullopt, 2.0};
+  const ChangeReport twice = simulation.edit(heavier);
+  EXPECT_NEAR(twice.energy_added - (twice.elastic_energy_after - twice.elastic_energy_before), begin, 1e-6);
+  EXPECT_EQ(simulation.change(DynamicsChange{dynamics::IntegratorKind::rk4, {}, {}}).energy_added, 0.0);
+  const double strained = simulation.tool().elastic_energy;
+  EXPECT_NEAR(simulation.select_tool(tools::Tool::spring).energy_added, -strained, 1e-6);
+  EXPECT_NEAR(simulation.energy(), energy_of(simulation) + simulation.tool().elastic_energy, 1e-12);
+}
+
+/// A law: nothing adds energy to a body in free flight.
+TEST_F(Switching, TheEnergyOfAReleasedObjectStays) {
+  simulation.release();
+  const double thrown = simulation.energy();
+  EXPECT_NEAR(thrown, energy_of(simulation), 1e-12);
+  ASSERT_GT(simulation.objects()[0].V_WO_W.angular.norm(), 0.5);
+  simulation.advance(1.2);
+  EXPECT_NEAR(simulation.energy(), thrown, 1e-6 * thrown);
+}
+
+TEST(AdvanceReport, CountsOfLongRunsFit) {
+  AdvanceReport day;
+  day.collision_queries = 2000000000;
+  AdvanceReport week;
+  for (int i = 0; i < 7; ++i) week.add(day);
+  EXPECT_EQ(week.collision_queries, 14000000000);
+}
+
 TEST_F(Switching, WhatIsAbsentStays) {
   ForkChange part;
   part.dofs.torsion = false;
@@ -439,7 +526,7 @@ TEST(Simulation, ARoundingErrorBetweenEndAndSampleAddsNoStep) {
     Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
     push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.1, 0.0, 0.1));
     simulation.push_button(0.0, true);
-    int steps = 0;
+    std::int64_t steps = 0;
     for (int i = 1; i <= 50; ++i) steps += simulation.advance(0.02 * i + off).steps;
     EXPECT_EQ(steps, 50) << off;
     EXPECT_NEAR(simulation.time(), 1.0, 1e-12);
@@ -455,7 +542,7 @@ TEST(Simulation, EnergyAddedIsTheIntegratorsErrorAndFallsWithTheStep) {
     Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 1.0, {0.02, 0.0, 1.2}, {0.3, 0.1, 1.4}, 1.0);
     simulation.push_button(0.0, true);
-    return std::abs(simulation.advance(1.0).energy_added);
+    return std::abs(simulation.advance(1.0).energy_balance);
   };
   EXPECT_LT(added("exponential", 0.002), 1e-6);
   EXPECT_GT(added("semi_implicit_euler", 2e-4), 1e-6);  // an integrator that adds energy is detected

@@ -49,8 +49,8 @@ struct Seen {
 /// Appends all outputs of a simulation.
 void append_outputs(const Simulation& s, const AdvanceReport& report, Numbers& out) {
   const auto matrix = [&](const auto& m) { out.insert(out.end(), m.data(), m.data() + m.size()); };
-  out.insert(out.end(), {s.time(), double(report.steps), report.position_error, report.angle_error, report.energy_added,
-                         report.stiffest_omega_dt, double(report.substeps), double(report.stops),
+  out.insert(out.end(), {s.time(), double(report.steps), report.position_error, report.angle_error,
+                         report.energy_balance, report.stiffest_omega_dt, double(report.substeps), double(report.stops),
                          double(report.steps_fallback), report.energy_error, double(report.steps_blocked),
                          double(report.steps_unsolved), double(report.steps_rejected)});
   for (const bodies::BodyState& o : s.objects()) {

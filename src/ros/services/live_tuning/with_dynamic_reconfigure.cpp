@@ -16,9 +16,9 @@ void take_from(const simulation::Simulation& simulation, ManipulationConfig& con
   config.stretch_stiffness = fork.stiffness.stretch;
   config.bend_stiffness = fork.stiffness.bend;
   config.torsion_stiffness = fork.stiffness.torsion;
-  config.stretch_damping = fork.damping_ratio.stretch;
-  config.bend_damping = fork.damping_ratio.bend;
-  config.torsion_damping = fork.damping_ratio.torsion;
+  config.stretch_damping = fork.damping().stretch;
+  config.bend_damping = fork.damping().bend;
+  config.torsion_damping = fork.damping().torsion;
   config.integrator = validation::name_of(simulation.settings().dynamics.integrator);
   config.step = simulation.settings().dynamics.step;
 }
@@ -32,7 +32,6 @@ std::optional<T> if_other(const T& asked, const T& present) {
 live::Command command_for(const simulation::Simulation& simulation, const ManipulationConfig& config) {
   const rod::ForkSettings& fork = simulation.fork_settings();
   const dynamics::DynamicsSettings& dynamics = simulation.settings().dynamics;
-  const rod::PerDof damping{config.stretch_damping, config.bend_damping, config.torsion_damping};
   live::Command command;
   command.kind = live::Command::Kind::settings;
   simulation::ForkChange& fork_change = command.fork_change;
@@ -41,12 +40,9 @@ live::Command command_for(const simulation::Simulation& simulation, const Manipu
   fork_change.stiffness = {if_other(config.stretch_stiffness, fork.stiffness.stretch),
                            if_other(config.bend_stiffness, fork.stiffness.bend),
                            if_other(config.torsion_stiffness, fork.stiffness.torsion)};
-  fork_change.damping_ratio = {if_other(damping.stretch, fork.damping_ratio.stretch),
-                               if_other(damping.bend, fork.damping_ratio.bend),
-                               if_other(damping.torsion, fork.damping_ratio.torsion)};
-  const bool one_ratio = damping == rod::PerDof{damping.stretch, damping.stretch, damping.stretch};
-  if (!fork_change.damping_ratio.empty() && !one_ratio)
-    fork_change.damping_law = rod::DampingLaw::per_dof;  // modal has a single ratio
+  fork_change.damping = {if_other(config.stretch_damping, fork.damping().stretch),
+                         if_other(config.bend_damping, fork.damping().bend),
+                         if_other(config.torsion_damping, fork.damping().torsion)};
   simulation::DynamicsChange& dynamics_change = command.dynamics_change;
   dynamics_change.integrator =
       if_other(validation::named<dynamics::IntegratorKind>(config.integrator, "", "integrator"), dynamics.integrator);
