@@ -125,7 +125,7 @@ void bind_report(py::module_& module) {
       .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
       .def_readonly("substeps", &AdvanceReport::substeps,
                     "Number of steps discarded and repeated as shorter ones (equation not solved, or error too large).")
-      .def_readonly("simulated_time", &AdvanceReport::simulated_time, "Simulated time [s].")
+      .def_readonly("simulated_time", &AdvanceReport::simulated_time, "Time simulated by this call [s].")
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
       .def_readonly("angle_error", &AdvanceReport::angle_error,
                     "Largest estimate of a step's local error in the angle [rad].")

@@ -225,7 +225,7 @@ class AdvanceReport:
         """Number of steps discarded and repeated as shorter ones (equation not solved, or error too large)."""
     @property
     def simulated_time(self) -> float:
-        """Simulated time [s]."""
+        """Time simulated by this call [s]."""
     @property
     def position_error(self) -> float:
         """Largest estimate of a step's local error [m]."""

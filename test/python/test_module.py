@@ -186,7 +186,7 @@ def test_damping_values_belong_to_a_law():
     simulation.change(damping_law="modal", damping=[0.5, 0.5, 0.5])
     assert "per_dof" in simulation.change(damping=[0.5, 0.6, 0.7]).message
     assert simulation.tool().damping_ratio.tolist() == [0.5, 0.6, 0.7]
-    with pytest.raises(sw.InputError, match="^damping_law: invalid value 'rayleigh': expected one of per_dof, modal, coefficients"):
+    with pytest.raises(sw.InputError, match="^damping_law: invalid value 'rayleigh': expected one of per_dof"):
         simulation.change(damping_law="rayleigh")
     with pytest.raises(sw.InputError, match="^fork.damping: .*per_dof"):
         simulation.change(damping_law="modal")
