@@ -56,7 +56,7 @@ class CellRun {
     outcome_.steps += static_cast<int>(report.steps);
     outcome_.stops += report.stops;
     outcome_.fallback += report.steps_fallback;
-    outcome_.substeps += report.substeps;
+    outcome_.substeps += static_cast<int>(report.substeps);
     estimated_ = report.energy_error;
     const bodies::BodyState& object = simulation_.objects()[0];
     const Twist& V = object.V_WO_W;
