@@ -131,7 +131,8 @@ void bind_state_access(py::class_<Simulation>& type) {
           "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
           "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
       .def_property_readonly("contacts", &Simulation::contacts,
-                             "Contact points at the current time: a list of ContactState.")
+                             "Current contacts, and those that ended in the last call of `advance`: a list of "
+                             "ContactState.")
       .def("tool", &Simulation::tool, py::arg("hand") = 0, "Returns the state of the tool in a hand.")
       .def_property_readonly("elastic_energy", &Simulation::elastic_energy, "Energy stored in all tools [J].")
       .def_property_readonly(
@@ -264,7 +265,7 @@ most the setting `styluses` - 1; any other raises InputError.)");
            "InputError if t is not finite.")
       .def("push_clutch", &Simulation::push_clutch, py::arg("t"), py::arg("on"), py::arg("hand") = 0,
            "Switches the clutch at time t [s]: while it is on, the tool and what it holds stay in place and the hand "
-           "moves alone; from then on they follow its further motion. Raises InputError if t is not finite.")
+           "moves alone; once it is off, they follow its further motion. Raises InputError if t is not finite.")
       .def(
           "push_external_wrench",
           [](Simulation& s, double t, const Array& wrench, const std::string& axes, std::size_t hand) {

@@ -325,7 +325,7 @@ class Simulation:
         InputError if t is not finite."""
     def push_clutch(self, t: float, on: bool, hand: int = 0) -> None:
         """Switches the clutch at time t [s]: while it is on, the tool and what it holds stay in place and the hand
-        moves alone; from then on they follow its further motion. Raises InputError if t is not finite."""
+        moves alone; once it is off, they follow its further motion. Raises InputError if t is not finite."""
     def push_external_wrench(self, t: float, wrench: npt.ArrayLike, axes: str = "world", hand: int = 0) -> None:
         """Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
 
@@ -364,7 +364,7 @@ class Simulation:
         """True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,)."""
     @property
     def contacts(self) -> List[ContactState]:
-        """Contact points at the current time: a list of ContactState."""
+        """Current contacts, and those that ended in the last call of `advance`: a list of ContactState."""
     def tool(self, hand: int = 0) -> ToolState:
         """Returns the state of the tool in a hand."""
     @property

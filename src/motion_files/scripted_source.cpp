@@ -37,7 +37,7 @@ ScriptedSource::ScriptedSource(const std::string& path) {
     waypoint.t -= first;
     if (i > 0 && !(waypoint.t - waypoints_.back().t > closest_samples)) {
       validation::refuse(config::place(list[i], path), name + ".t", list[i]["t"].Scalar(),
-                         "later than the waypoint before");
+                         "a time later than that of the waypoint before");
     }
     waypoints_.push_back(waypoint);
   }

@@ -12,7 +12,7 @@ enum class ContactPhase { started, persisting, ended };
 /// A contact of an object, in world axes.
 struct ContactState {
   std::string object;                          ///< the object's name
-  std::string other;                           ///< another object's name, or "workbench"
+  std::string other;                           ///< the other body's name; "workbench": the bench
   Vector3d p_W = Vector3d::Zero();             ///< contact point [m]
   Vector3d n_W = Vector3d::UnitZ();            ///< unit normal, towards `object`
   double depth = 0.0;                          ///< penetration [m]

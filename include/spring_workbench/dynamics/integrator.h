@@ -82,7 +82,7 @@ class Integrator {
 
   /// Saves or restores the history: calls `state(a_, b_, …)` with every member that it keeps from step to step.
   virtual void exchange(math::StateArchive&) {}
-  /// Whether a restored history replaces any other, so that one integrator may be used for several runs in turn.
+  /// Whether restoring a history overwrites all that it keeps, so that one integrator can serve several runs in turn.
   virtual bool restores_all() const { return false; }
 };
 

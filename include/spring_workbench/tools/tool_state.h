@@ -34,7 +34,7 @@ struct ToolState {
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                              ///< twist angle [rad]
   RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus in world
-  RigidTransform X_WH = RigidTransform::Identity();  ///< pose of the handle in the hand: that of the stylus unless
+  RigidTransform X_WH = RigidTransform::Identity();  ///< pose of the handle in world; that of the stylus unless
                                                      ///< calibration or a regrasp has moved it
   RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the proxy handle in world (doc/model.md)
   RigidTransform X_WE = RigidTransform::Identity();        ///< pose of the tip in world

@@ -49,7 +49,7 @@ void Checkpoint::set_file_error(const std::string& file_error) {
   if (file_error == file_error_) return;
   file_error_ = file_error;
   const std::string now = file_error.empty() ? "up to date again" : "not up to date: " + file_error;
-  ROS_WARN_STREAM("the checkpoint's file is " << now);
+  ROS_WARN_STREAM("the checkpoint file is " << now);
 }
 
 void Checkpoint::keep_on_new_master() {

@@ -80,7 +80,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   };
   if (is_motion) text("file", "a motion file", result.file);
   if (result.source == "operator") {
-    text("scene", "a scene", result.scene);
+    text("scene", "a path or package:// URI of a URDF with targets", result.scene);
     if (parameters["seed"]) result.seed = config::read_integer(parameters["seed"], where, "seed", 0, 1000000000);
   }
   text("workbench_frame", "a frame name", result.workbench_frame);
