@@ -13,9 +13,6 @@ constexpr double energy_reserve = 0.1;
 /// Largest number of halvings of a span. Fewer: more steps are taken by the fallback. Test:
 /// UndampedFork.GainsNoEnergyWhileTheHandTremblesByANanometre at 0.
 constexpr int most_halvings = 6;
-/// Steps after which a longer one is tried again at the latest. More: after a jerk the steps stay short for longer.
-/// Fewer: more attempts are in vain. Test: StepPace.TriesALongerStepSeldomIfItAlwaysFails at 1.
-constexpr int longest_wait = 16;
 /// Safety factor on the difference between the error of a step and its estimate; a run adds up these differences as if
 /// all had one sign. Test: ErrorBound.IsNotBelowTheErrorOfRunsAndSteps at 0.1.
 constexpr double local_margin = 4.0;

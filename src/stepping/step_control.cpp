@@ -51,24 +51,6 @@ void forget_error(const dynamics::StrainState& state, StepControl::Memory& memor
 
 }  // namespace
 
-int StepPace::next(double done) const {
-  int level = left_ > 0 ? level_ : std::max(0, level_ - 1);
-  while (std::ldexp(done, level) != std::floor(std::ldexp(done, level))) ++level;
-  return level;
-}
-
-void StepPace::note(int tried, int taken) {
-  if (taken < 0) {
-    *this = {};
-    return;
-  }
-  const bool divided = taken > tried;
-  left_ = divided ? wait_ : std::max(0, left_ - 1);
-  if (divided) wait_ = std::min(std::max(2 * wait_, 2), longest_wait);
-  if (tried < level_ && !divided) wait_ = 0;
-  level_ = taken;
-}
-
 struct StepControl::Span {
   const dynamics::HeldBody& body;
   const motion::FrameMotion& handle;
@@ -122,9 +104,11 @@ ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion
   if (tolerance_ > 0.0) {
     steps_to_tolerance(span, t, h, next);
   } else {
-    memory.pace.over_span([&](double done, int level, bool failed) {
-      return step_in_halves(span, t + done * h, std::ldexp(h, -level), level, failed, next);
-    });
+    const int level = std::max(0, std::exchange(memory.level, 0) - 1);
+    bool taken = true;
+    for (int i = 0, count = 1 << level; i < count; ++i) {
+      taken = step_in_halves(span, t + i * h / count, h / count, level, !taken, next);
+    }
   }
   span.report.accepted = usable(next);
   if (span.report.accepted) {
@@ -250,8 +234,8 @@ void StepControl::fall_back(Span& span, double t, double h, dynamics::StrainStat
   take(span, t, h, tried, state);
 }
 
-int StepControl::step_in_halves(Span& span, double t, double h, int level, bool failed,
-                                dynamics::StrainState& state) const {
+bool StepControl::step_in_halves(Span& span, double t, double h, int level, bool failed,
+                                 dynamics::StrainState& state) const {
   Tried tried = try_step(span, t, h, state);
   const bool last = failed || level == most_halvings || !integrator_->stiffly_stable();
   const double energy = std::max(span.memory.energy, tried.energy);
@@ -278,12 +262,12 @@ int StepControl::step_in_halves(Span& span, double t, double h, int level, bool 
   };
   if (!good && !last && !hopeless()) {
     ++span.report.substeps;
-    const int first = step_in_halves(span, t, 0.5 * h, level + 1, false, state);
-    const int second = step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, first < 0, state);
-    return second < 0 ? first : second;
+    good = step_in_halves(span, t, 0.5 * h, level + 1, false, state);
+    return step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, !good, state) || good;
   }
+  if (good) span.memory.level = std::max(span.memory.level, level);
   good ? take(span, t, h, tried, state) : fall_back(span, t, h, state);
-  return good ? level : -1;
+  return good;
 }
 
 void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::StrainState& state) const {

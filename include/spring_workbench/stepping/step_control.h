@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -40,34 +39,6 @@ struct ControlledStep {
   ErrorBounds bounds;
 };
 
-/// Chooses the lengths of steps, as 2^-level-th parts of a span, from whether those before had to be halved. After a
-/// step that had not, one twice as long is tried. If that fails again and again, more and more steps pass until the
-/// next attempt, so that few attempts are in vain.
-class StepPace {
- public:
-  /// Calls `step(done, level, failed)` for one part of a span after the other: a 2^-level-th of it, after the fraction
-  /// `done`; `failed`: the part before failed. It returns the level of the last step taken in that part, -1: none.
-  template <typename Step>
-  void over_span(Step&& step) {
-    int taken = 0;
-    for (double done = 0.0; done < 1.0;) {
-      const int level = next(done);
-      taken = step(done, level, taken < 0);
-      note(level, taken);
-      done += std::ldexp(1.0, -level);
-    }
-  }
-  void exchange(math::StateArchive& state) { state(level_, wait_, left_); }
-
- private:
-  int next(double done) const;
-  void note(int tried, int taken);
-
-  int level_ = 0;  ///< of the last step
-  int wait_ = 0;   ///< steps between two attempts with longer ones
-  int left_ = 0;   ///< steps until the next attempt
-};
-
 /// Integrates the held body over a span of time, in one step or in as many as needed.
 ///
 /// A method that is stable at any stiffness takes shorter steps (halves, down to a 64th of the span) if it does not
@@ -93,7 +64,7 @@ class StepControl {
   /// What is kept from one span to the next. It is part of the state.
   struct Memory {
     double next_h = 0.0;          ///< with a tolerance: the next step to try [s]; 0: unknown
-    StepPace pace;                ///< without
+    int level = 0;                ///< without: the shortest step of the last span was its 2^level-th part
     long version = -1;            ///< version of the equations to which the other members belong
     double t = 0.0;               ///< time to which the other members belong [s]
     dynamics::StrainState error;  ///< estimated error of the run
@@ -109,7 +80,7 @@ class StepControl {
     bool bounded = false;                ///< whether the two bounds are valid (doc/model.md, "Error bound")
 
     void exchange(math::StateArchive& state) {
-      state(next_h, pace, version, t, error, swing, stiffest_omega, energy, energy_saved, exact, spread, end,
+      state(next_h, level, version, t, error, swing, stiffest_omega, energy, energy_saved, exact, spread, end,
             error_bound, angle_bound, bounded);
     }
   };
@@ -143,8 +114,8 @@ class StepControl {
   void take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const;
   void fall_back(Span& span, double t, double h, dynamics::StrainState& state) const;
   /// Takes a 2^level-th part of the span. `failed`: the method failed in the previous part, of the same length, so this
-  /// part is not divided. Returns the level of the last step that the method took; -1: none.
-  int step_in_halves(Span& span, double t, double h, int level, bool failed, dynamics::StrainState& state) const;
+  /// part is not divided. Returns whether the method took any step.
+  bool step_in_halves(Span& span, double t, double h, int level, bool failed, dynamics::StrainState& state) const;
   void steps_to_tolerance(Span& span, double t, double h, dynamics::StrainState& state) const;
   void follow_error(Span& span, double t, double h, const Tried& tried, const dynamics::StrainState& begin) const;
   void end_bound(Span& span, double t, const dynamics::StrainState& state) const;

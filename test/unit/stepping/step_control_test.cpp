@@ -112,54 +112,6 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
 
 /// A stiff fork at rest, bent by a load that its springs hold: the acceleration is the small difference of large ones,
 /// and its rounding is no reason to halve the step.
-/// Steps of a span if those longer than a 2^-needed-th part of it fail; `vain` counts the attempts that do.
-int steps_of_span(StepPace& pace, int needed, int& vain) {
-  int steps = 0;
-  double end = 0.0;
-  pace.over_span([&](double done, int level, bool failed) {
-    EXPECT_TRUE(done == end && !failed);
-    const int taken = std::max(level, needed);
-    vain += (1 << (taken - level)) - 1;
-    steps += 1 << (taken - level);
-    end = done + std::ldexp(1.0, -level);
-    return taken;
-  });
-  EXPECT_EQ(end, 1.0);
-  return steps;
-}
-
-TEST(StepPace, TriesALongerStepSeldomIfItAlwaysFails) {
-  for (const int needed : {1, 2, 3, 6}) {
-    StepPace pace;
-    int steps = 0, vain = 0;
-    for (int span = 0; span < 400; ++span) steps += steps_of_span(pace, needed, vain);
-    EXPECT_EQ(steps, 400 << needed);
-    EXPECT_LT(vain, steps / 12) << needed;
-  }
-}
-
-TEST(StepPace, IsBackAtLongStepsInTheSpanAfterAJerk) {
-  StepPace pace;
-  int vain = 0;
-  EXPECT_EQ(steps_of_span(pace, 6, vain), 64);
-  EXPECT_LT(steps_of_span(pace, 0, vain), 8);
-  EXPECT_EQ(steps_of_span(pace, 0, vain), 1);
-  EXPECT_EQ(vain, 63);
-}
-
-TEST(StepPace, AfterAFailureThePartsAreAsLongAsTheSpanAdmits) {
-  StepPace pace;
-  int vain = 0;
-  EXPECT_EQ(steps_of_span(pace, 6, vain), 64);
-  std::vector<int> levels;
-  pace.over_span([&](double, int level, bool failed) {
-    EXPECT_EQ(failed, !levels.empty());
-    levels.push_back(level);
-    return -1;
-  });
-  EXPECT_EQ(levels, (std::vector{5, 5, 4, 3, 2, 1}));  // none reaches beyond the end
-}
-
 TEST(StepControl, GoesOnInWholeStepsWhereALoadAndTheSpringsCancel) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int trial = 0; trial < 24; ++trial) {
