@@ -200,7 +200,7 @@ class Clocks(unittest.TestCase):
 
         def told():
             statuses = [s for m in self.diagnostics.messages for s in m.status if "tracker input" in s.name]
-            both = "/tracker_driver is followed, /clocks_test is"
+            both = "using /tracker_driver, ignoring /clocks_test"
             return any(s.level == s.ERROR and both in s.message for s in statuses)
 
         wait_for(told, "an error that names both")

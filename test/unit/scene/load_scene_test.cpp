@@ -252,7 +252,8 @@ TEST_F(LoadScene, AMissingVisualMeshIsNotDrawn) {
     const std::string mesh = "<geometry><mesh filename='" + name + "'/></geometry>";
     const Scene scene = load_part(unit_box + "<visual>" + mesh + "</visual>" + ball);
     EXPECT_TRUE(warned(scene, "scene.urdf:2: link 'part': mesh: ")) << name;
-    EXPECT_TRUE(warned(scene, name + ": it is not drawn"));
+    EXPECT_TRUE(warned(scene, "'" + name + "'"));
+    EXPECT_TRUE(warned(scene, ": it is not drawn"));
     const Body& part = scene.bodies[0];
     EXPECT_NEAR(part.mass_properties.mass, 8.0, 1e-12);
     ASSERT_EQ(part.visual.size(), 1u);
