@@ -116,7 +116,7 @@ class Markers(unittest.TestCase):
         self.assertEqual(self.check(text % "stack"), (text % "stack", []))
         mended, wrong = self.check(text % "wall")
         self.assertEqual((mended, len(wrong)), (text % "stack", 1))
-        for bad in ("a stack<!-- word kind of t.csv where n=3 -->", "a wall<!-- word colour of t.csv where kind=wall -->"):
+        for bad in ("a stack<!-- word kind of t.csv where n=3 -->", "a<!-- word colour of t.csv where kind=wall -->"):
             same, wrong = self.check(bad)
             self.assertEqual((same, len(wrong)), (bad, 1))
 

@@ -91,7 +91,7 @@ TEST(ScriptedSource, BadScriptsNameFileLineFieldAndRule) {
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1], button: 3}",
        ":3: waypoints[0].button: invalid value '3': expected true or false"},
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}",
-       ":4: waypoints[1].t: invalid value '0': expected later than"},
+       ":4: waypoints[1].t: invalid value '0': expected a time later than"},
       {"rate: [", ":1: not YAML"},
   };
   const test_support::TemporaryFolder folder;
