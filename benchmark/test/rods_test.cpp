@@ -415,7 +415,8 @@ TEST(StabilityMap, ExplicitMethodsHoldOnTheirOwnBelowTheirLimitOnOneSpringAndNot
 TEST(StabilityMap, AStepByTheFallbackOrAtAStopHoldsButNotOnItsOwnWhateverTheIntegrator) {
   StabilityOutcome outcome;
   EXPECT_TRUE(outcome.held() && outcome.held_on_its_own());
-  for (int StabilityOutcome::*counter : {&StabilityOutcome::stops, &StabilityOutcome::fallback}) {
+  for (int StabilityOutcome::*counter :
+       {&StabilityOutcome::stops, &StabilityOutcome::fallback, &StabilityOutcome::substeps}) {
     StabilityOutcome counted;
     counted.*counter = 1;
     EXPECT_TRUE(counted.held() && !counted.held_on_its_own());

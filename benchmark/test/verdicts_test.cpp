@@ -495,6 +495,9 @@ TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
   measured.extremes[1].outcome.penetration = 0.0;
   measured.extremes[1].outcome.steps_blocked = 1;
   EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
+  measured.extremes[1].outcome.steps_blocked = 0;
+  measured.extremes[1].outcome.steps_unsolved = 1;
+  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
 }
 
 ErrorRow one_step_per_sample(const std::string& rod) {
