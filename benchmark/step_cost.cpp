@@ -83,14 +83,11 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
 
 using Settings = simulation::SimulationSettings;
 
-/// A simulation with all samples of a tracked hand pushed, 20 ms after the grasp (`grasped`) or before it; a bench is
+/// A simulation with all samples of a tracked hand pushed, 20 ms after the grasp (`grasped`) or before it; the bench is
 /// far below.
 simulation::Simulation simulation_of(const RodCase& one, const Settings& settings, bool grasped) {
   scene::Scene scene = rod_scene(one);
-  scene::Body& bench = scene.bodies.emplace_back();
-  bench.name = "bench";
-  bench.collision.push_back({geometry::Box{Vector3d(1.0, 1.0, 0.1)}});
-  bench.X_WO.translation().z() = -2.0;
+  scene.bench_height = -2.0;
   simulation::Simulation simulation(scene, settings);
   for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
   if (grasped) simulation.advance(interval);
