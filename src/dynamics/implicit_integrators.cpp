@@ -5,8 +5,10 @@
 #include <cmath>
 #include <iterator>
 
+#include "accelerations.h"
 #include "constants.h"
 #include "spring_workbench/dynamics/linearised_motion.h"
+#include "spring_workbench/math/by_size.h"
 
 namespace spring_workbench::dynamics {
 StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
@@ -67,27 +69,27 @@ constexpr double c_ij[stages][stages] = {
     {34.19095006749676, 15.49671153725963, 54.74760875964130, 14.16005392148534},
     {34.62605830930532, 15.30084976114473, 56.99955578662667, 18.40807009793095, -5.714285714285717}};
 
-/// One step from (q, v), each column a state of its own; `acceleration(c, q, v)` at t + c h, `by_time` its derivative
-/// by time.
-template <typename Matrix, typename Acceleration>
-void rodas_step(const LinearisedMotion& motion, double h, const Acceleration& acceleration, const Matrix& by_time,
-                Matrix& q, Matrix& v) {
-  const double d = gamma_t[0] * h;  // γ_i of the first stage is γ
-  const ImplicitMatrix matrix(motion, d);
+/// Steps side by side: a column of `q` and `v` for each, and its length in `h`. `acceleration(c, q, v)` at t + c h,
+/// `by_time` its derivative by time; `solve(b)`: (M + γ h D + γ² h² K)⁻¹ b.
+template <typename Matrix, typename Lengths, typename Acceleration, typename Solve>
+void rodas_steps(const LinearisedMotion& motion, const Lengths& h, const Acceleration& acceleration,
+                 const Matrix& by_time, const Solve& solve, Matrix& q, Matrix& v) {
+  constexpr int n = Matrix::RowsAtCompileTime;
+  const Eigen::Matrix<double, n, n> M = motion.M, K = motion.K;
+  const Lengths d = gamma_t[0] * h, over_h = h.cwiseInverse();  // γ_i of the first stage is γ
   Matrix Q[stages], V[stages];
   for (std::size_t i = 0; i < stages; ++i) {
-    Matrix q_i = q, v_i = v;
-    Matrix rest_q = Matrix::Zero(q.rows(), q.cols()), rest_v = rest_q;
+    Matrix q_i = q, v_i = v, rest_q = Matrix::Zero(), rest_v = Matrix::Zero();
     for (std::size_t j = 0; j < i; ++j) {
       q_i += a_ij[i][j] * Q[j];
       v_i += a_ij[i][j] * V[j];
-      rest_q += (c_ij[i][j] / h) * Q[j];
-      rest_v += (c_ij[i][j] / h) * V[j];
+      rest_q += c_ij[i][j] * Q[j];
+      rest_v += c_ij[i][j] * V[j];
     }
-    rest_q += v_i;
-    rest_v += acceleration(alpha[i], q_i, v_i) + (gamma_t[i] * h) * by_time;
-    V[i] = matrix.solve(d * (motion.M * rest_v) - d * d * (motion.K * rest_q));
-    Q[i] = d * (V[i] + rest_q);
+    rest_q = rest_q * over_h.asDiagonal() + v_i;
+    rest_v = rest_v * over_h.asDiagonal() + acceleration(alpha[i], q_i, v_i) + by_time * (gamma_t[i] * h).asDiagonal();
+    V[i] = solve(Matrix((M * rest_v - K * rest_q * d.asDiagonal()) * d.asDiagonal()));
+    Q[i] = (V[i] + rest_q) * d.asDiagonal();
     if (i + 1 == stages) {
       q = q_i + Q[i];
       v = v_i + V[i];
@@ -95,60 +97,68 @@ void rodas_step(const LinearisedMotion& motion, double h, const Acceleration& ac
   }
 }
 
-/// Forcing, acceleration and linearised motion at the start of a step.
-struct StepStart {
-  HandleForcing forcing;
-  rod::StrainVector q_ddot;
-  LinearisedMotion motion;
-
-  StepStart(const HeldBody& body, const motion::FrameMotion& handle, double t, const StrainState& state)
-      : forcing(body.forcing(handle, t)),
-        q_ddot(body.acceleration(forcing, state.q, state.q_dot)),
-        motion(body, forcing, body.forcing(handle, t + math::Pack{}), state, q_ddot) {}
-};
-
-StrainState rodas_step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
-                       const StrainState& from, const StepStart& start) {
-  const auto acceleration = [&](double c, const rod::StrainVector& q, const rod::StrainVector& v) {
-    return c == 0.0 ? start.q_ddot : body.acceleration(body.forcing(handle, t + c * h), q, v);
+/// Steps side by side from the same state at `t`, one or two.
+template <int n, int columns>
+void rodas_steps(const HeldBody& body, const motion::FrameMotion& handle, double t,
+                 const Eigen::Matrix<double, 1, columns>& h, Eigen::Matrix<double, n, columns>& q,
+                 Eigen::Matrix<double, n, columns>& v) {
+  using Columns = Eigen::Matrix<double, n, columns>;
+  const double dt = time_difference * h[0];
+  const Eigen::Matrix<double, n, 3> a =
+      accelerations<n, 3>(body, body.forcing(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
+                          q.col(0).template replicate<1, 3>(), v.col(0).template replicate<1, 3>());
+  const LinearisedMotion motion(body, body.forcing(handle, t), body.forcing(handle, t + math::Pack{}),
+                                {q.col(0), v.col(0)}, a.col(0));
+  const ImplicitMatrix first(motion, gamma_t[0] * h[0]), last(motion, gamma_t[0] * h[columns - 1]);
+  const auto acceleration = [&](double c, const Columns& q_c, const Columns& v_c) -> Columns {
+    if (c == 0.0) return a.col(0).template replicate<1, columns>();
+    const double longer = h[0], shorter = h[columns - 1];
+    return accelerations(body, body.forcing(handle, t + c * math::Pack{longer, shorter, shorter, shorter}), q_c, v_c);
   };
-  const rod::StrainVector by_time = (-3.0 * start.q_ddot + 4.0 * acceleration(time_difference, from.q, from.q_dot) -
-                                     acceleration(2.0 * time_difference, from.q, from.q_dot)) /
-                                    (2.0 * time_difference * h);
-  StrainState to = from;
-  rodas_step(start.motion, h, acceleration, by_time, to.q, to.q_dot);
-  return to;
+  const auto solve = [&](const Columns& b) {
+    Columns x;
+    for (int k = 0; k < columns; ++k) x.col(k) = (k == 0 ? first : last).solve(Eigen::Matrix<double, n, 1>(b.col(k)));
+    return x;
+  };
+  const Columns by_time = ((-3.0 * a.col(0) + 4.0 * a.col(1) - a.col(2)) / (2.0 * dt)).template replicate<1, columns>();
+  rodas_steps(motion, h, acceleration, by_time, solve, q, v);
 }
 
 }  // namespace
 
 StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                               StrainState& state) {
-  const StepStart begin(body, handle, t, state);
-  const StrainState whole = rodas_step(body, handle, t, h, state, begin);
-  const StrainState half = rodas_step(body, handle, t, 0.5 * h, state, begin);
-  if (!half.q.allFinite() || !half.q_dot.allFinite()) {
-    state = half;
-    return {whole.q, 0.0, whole.q_dot};
-  }
-  const StepStart middle(body, handle, t + 0.5 * h, half);
-  state = rodas_step(body, handle, t + 0.5 * h, 0.5 * h, half, middle);
-  return {(whole.q - state.q) / finer_by, 0.0, (whole.q_dot - state.q_dot) / finer_by};
+  return math::by_size(body.size(), [&](auto size) -> StepEstimate {
+    constexpr int n = decltype(size)::value;
+    Eigen::Matrix<double, n, 2> q = state.q.replicate<1, 2>(), v = state.q_dot.replicate<1, 2>();
+    rodas_steps<n, 2>(body, handle, t, {h, 0.5 * h}, q, v);  // the whole, and the first half
+    Eigen::Matrix<double, n, 1> q_end = q.col(1), v_end = v.col(1);
+    if (q_end.allFinite() && v_end.allFinite()) {
+      rodas_steps<n, 1>(body, handle, t + 0.5 * h, Eigen::Matrix<double, 1, 1>(0.5 * h), q_end, v_end);
+    }
+    state = {q_end, v_end};
+    return {(q.col(0) - q_end) / finer_by, 0.0, (v.col(0) - v_end) / finer_by};
+  });
 }
 
 /// The deviations under generalised forces of 1, one per column.
 Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleForcing& handle, double h,
                                           const StrainState& state) {
-  const int n = body.size();
   const LinearisedMotion motion(body, handle, state.q);
+  const ImplicitMatrix matrix(motion, gamma_t[0] * h);
   const Eigen::LLT<rod::StrainMatrix> M(motion.M);
-  const rod::StrainMatrix none = rod::StrainMatrix::Zero(n, n);
-  Response r{none, none};
-  const auto acceleration = [&](double, const rod::StrainMatrix& q, const rod::StrainMatrix& v) {
-    return rod::StrainMatrix(M.solve(rod::StrainMatrix::Identity(n, n) - motion.K * q - motion.D * v));
-  };
-  rodas_step(motion, h, acceleration, none, r.q, r.q_dot);
-  return r;
+  return math::by_size(body.size(), [&](auto size) -> Response {
+    using Columns = Eigen::Matrix<double, decltype(size)::value, decltype(size)::value>;
+    const Columns K = motion.K, D = motion.D, none = Columns::Zero();
+    Columns q = none, v = none;
+    const auto acceleration = [&](double, const Columns& q_c, const Columns& v_c) {
+      return Columns(M.solve(Columns::Identity() - K * q_c - D * v_c));
+    };
+    const auto solve = [&](const Columns& b) { return matrix.solve(b); };
+    const Eigen::Matrix<double, 1, decltype(size)::value> lengths = Columns::Constant(h).row(0);
+    rodas_steps(motion, lengths, acceleration, none, solve, q, v);
+    return {q, v};
+  });
 }
 
 }  // namespace spring_workbench::dynamics

@@ -79,33 +79,12 @@ Integrator::Response Integrator::response(const HeldBody& body, const HandleForc
   return r;
 }
 
-rod::StrainVector LastAcceleration::get(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
-  const bool same = !body.coupled() && version_ == body.version() && load_version_ == body.load_version() &&
-                    t_ == handle.t && state_.q == state.q && state_.q_dot == state.q_dot &&
-                    handle_acceleration_ == handle.acceleration_less_gravity &&
-                    handle_angular_acceleration_ == handle.angular_acceleration;
-  return same ? q_ddot_ : body.acceleration(handle, state.q, state.q_dot);
-}
-
-void LastAcceleration::keep(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
-                            const rod::StrainVector& q_ddot) {
-  version_ = body.version();
-  load_version_ = body.load_version();
-  t_ = handle.t;
-  handle_acceleration_ = handle.acceleration_less_gravity;
-  handle_angular_acceleration_ = handle.angular_acceleration;
-  state_ = state;
-  q_ddot_ = q_ddot;
-}
-
 StepEstimate SemiImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                      StrainState& state) {
-  const rod::StrainVector a = last_.get(body, body.forcing(handle, t), state);
+  const rod::StrainVector a = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
   state.q_dot += h * a;
   state.q += h * state.q_dot;
-  const HandleForcing end = body.forcing(handle, t + h);
-  const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
-  last_.keep(body, end, state, a_end);
+  const rod::StrainVector a_end = body.acceleration(body.forcing(handle, t + h), state.q, state.q_dot);
   // h² a against h² (2 a + a_end) / 6, and h a against h (a + a_end) / 2.
   return {h * h / 6.0 * (4.0 * a - a_end), 0.0, 0.5 * h * (a - a_end)};
 }
@@ -157,7 +136,7 @@ StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, 
 StepEstimate RungeKutta4::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                StrainState& state) {
   const StrainState s0 = state;
-  const rod::StrainVector a1 = last_.get(body, body.forcing(handle, t), s0);
+  const rod::StrainVector a1 = body.acceleration(body.forcing(handle, t), s0.q, s0.q_dot);
   const HandleForcing middle = body.forcing(handle, t + 0.5 * h);
   const HandleForcing end = body.forcing(handle, t + h);
   const rod::StrainVector v2 = s0.q_dot + 0.5 * h * a1;
@@ -169,7 +148,6 @@ StepEstimate RungeKutta4::step(const HeldBody& body, const motion::FrameMotion& 
   state.q = s0.q + h / 6.0 * (s0.q_dot + 2.0 * v2 + 2.0 * v3 + v4);
   state.q_dot = s0.q_dot + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
   const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
-  last_.keep(body, end, state, a_end);
   return end_error(body, handle, t, h, {s0, a1}, {state, a_end});
 }
 

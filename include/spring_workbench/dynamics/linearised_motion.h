@@ -24,7 +24,17 @@ struct LinearisedMotion {
 class ImplicitMatrix {
  public:
   ImplicitMatrix(const LinearisedMotion& motion, double d);
-  rod::StrainMatrix solve(const rod::StrainMatrix& b) const;
+  rod::StrainMatrix solve(const rod::StrainMatrix& b) const {
+    return scale_.asDiagonal() * lu_.solve(rod::StrainMatrix(scale_.asDiagonal() * b));
+  }
+  template <int n, int columns>
+  Eigen::Matrix<double, n, columns> solve(const Eigen::Matrix<double, n, columns>& b) const {
+    const Eigen::Map<const Eigen::Matrix<double, n, n>> LU(lu_.matrixLU().data());
+    Eigen::Matrix<double, n, columns> x = lu_.permutationP() * (scale_.asDiagonal() * b);
+    LU.template triangularView<Eigen::UnitLower>().solveInPlace(x);
+    LU.template triangularView<Eigen::Upper>().solveInPlace(x);
+    return scale_.asDiagonal() * x;
+  }
 
  private:
   rod::StrainVector scale_;
