@@ -7,8 +7,16 @@ document is shown:
 `the`, `max`, `min`, `mean` or `sum` of a column, over the rows where all the cells named are as said (numbers as
 numbers), or match a pattern (`claim~^Rod .* samples`); `the` wants one row alone; `count` is how many rows have
 anything in that column. `times X` at the end gives another unit. The number is the last one before the marker, and must
-be what the table says, rounded to as many digits as it has. `run` is no number but `quick` or `full`: how the report
-was run that wrote the table, by the command in its header.
+be what the table says, rounded to as many digits as it has. Of a cell like `26.2 ± 0.8` the mean counts. A number in a
+text is found by the words before it, after the column and a colon:
+
+    2.75 %<!-- max judged: force off the exact one of contact/wedge.csv -->
+
+A number that a test asserts is one of the code of that test, a gtest or a whole Python file without its ending:
+
+    1.4 times<!-- test Calibration.EveryDirectionSettlesAlike -->
+
+`run` is no number but `quick` or `full`: how the report was run that wrote the table, by the command in its header.
 
     of a quick<!-- run of verdicts.csv --> run
 
@@ -41,6 +49,7 @@ RESULTS = "benchmark/results"
 DOCUMENTS = ["README.md", "benchmark/README.md", "benchmark/contact/README.md", "doc/*.md"]
 VALUE = r"(the|max|min|mean|sum|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?"
 MARKER = re.compile(rf"<!--\s*{VALUE}(?:\s+times\s+([-+.\deE]+))?\s*-->")
+TEST = re.compile(r"<!--\s*test\s+([\w.]+)(?:\s+times\s+([-+.\deE]+))?\s*-->")
 ALL = re.compile(r"<!--\s*all\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?\s*-->")
 LESS = re.compile(rf"<!--\s*less\s+{VALUE}\s+than\s+{VALUE}\s*-->")
 WORD = re.compile(r"<!--\s*word\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?\s*-->")
@@ -102,6 +111,40 @@ def chosen(table, where, results):
     return rows
 
 
+def number_in(row, column):
+    """The number in a column, or in its text right after the words behind a colon in `column`; None without one."""
+    name, colon, words = (column, "", "") if column in row else column.partition(": ")
+    text = row.get(name, "")
+    found = re.search(rf"(?:^|; ){re.escape(words)} (\S+)", text) if colon else re.match(r"(\S+) ± ", text)
+    try:
+        return float(found.group(1) if found else text)
+    except ValueError:
+        return None
+
+
+def tested(name, root):
+    """The numbers in the code of a test: a gtest, or a Python file."""
+    for path in sorted(path for folder in ("test", "benchmark") for path in (root / folder).rglob("*.*")):
+        if path.stem == name and path.suffix == ".py":
+            code = re.sub(r'"""[\s\S]*?"""|#.*', "", path.read_text(encoding="utf-8"))
+        elif path.suffix == ".cpp" and "." in name:
+            head = r"^TEST(?:_F|_P)?\({}, {}\)".format(*map(re.escape, name.split(".", 1)))
+            body = re.search(head + r"([\s\S]*?)^}", path.read_text(encoding="utf-8"), re.M)
+            code = body and re.sub(r'"(?:\\.|[^"\\])*"|//.*', "", body.group(1))
+        else:
+            continue
+        if code:
+            return [float(number) for number in re.findall(r"(?<![\w.])\d+(?:\.\d*)?(?:e[-+]?\d+)?", code)]
+    raise Stale(f"no test {name}")
+
+
+def number_of_test(text, name, times, root):
+    """`text`, if the test has that number."""
+    if text not in [written_like(text, number * float(times or 1.0)) for number in tested(name, root)]:
+        raise Stale(f"{text} is no number of this test")
+    return text
+
+
 def table_of(marker, results):
     """The table between two markers (a match of ROWS)."""
     columns = [column.strip() for column in marker.group(2).split(",")]
@@ -117,16 +160,15 @@ def table_of(marker, results):
 def value_of(kind, column, table, where, times, results):
     """The number that a marker stands for: the groups of MARKER."""
     rows = chosen(table, where, results)
-    if column not in rows[0]:
+    if column not in rows[0] and column.partition(": ")[0] not in rows[0]:
         raise Stale(f"{table} has no column {column}")
     if kind == "the" and len(rows) > 1:
         raise Stale(f"{len(rows)} such rows in {table}, not one")
     if kind == "count":
         return sum(row[column] != "" for row in rows) * float(times or 1.0)
-    try:
-        values = [float(row[column]) for row in rows]
-    except ValueError as error:
-        raise Stale(f"{column} of {table} is no number") from error
+    values = [number_in(row, column) for row in rows]
+    if None in values:
+        raise Stale(f"{column} of {table} is no number")
     of_kind = {"the": max, "max": max, "min": min, "sum": sum, "mean": lambda v: sum(v) / len(v)}
     return of_kind[kind](values) * float(times or 1.0)
 
@@ -176,28 +218,30 @@ def word_of(column, table, where, results):
     return rows[0][column]
 
 
-def with_words(line, number, results, wrong, marker_of, what_is):
-    """The line with the words of markers of one kind filled in: `what_is` gives that of a match."""
+def filled(line, number, wrong, marker_of, what, what_is):
+    """The line with what stands before the markers of one kind filled in, a word or a number: `what_is` gives it, of a
+    match and of what there is."""
     done, at = "", 0
     for marker in marker_of.finditer(line):
         before = line[at : marker.start()]
         at = marker.end()
-        word = re.search(r"[\w.-]+$", before)
+        found = (list(NUMBER.finditer(before)) if what == "number" else list(re.finditer(r"[\w.-]+$", before)))[-1:]
         try:
-            if not word:
-                raise Stale("no word before the marker")
-            now = what_is(marker)
-            if now != word.group():
-                wrong.append(f"{number}: {word.group()} is stale: {now} by {marker.group()}")
-                before = before[: word.start()] + now
-        except Stale as what:
-            wrong.append(f"{number}: {what}: {marker.group()}")
+            if not found:
+                raise Stale(f"no {what} before the marker")
+            is_there = found[0].group()
+            now = what_is(marker, is_there)
+            if now != is_there:
+                wrong.append(f"{number}: {is_there} is stale: {now} by {marker.group()}")
+                before = before[: found[0].start()] + now + before[found[0].end() :]
+        except Stale as what_else:
+            wrong.append(f"{number}: {what_else}: {marker.group()}")
         done += before + marker.group()
     return done + line[at:]
 
 
-def checked(text, results):
-    """Returns the text with the tables' numbers, and its faults line by line."""
+def checked(text, results, root=ROOT):
+    """Returns the text with the tables' numbers, and its faults line by line. `root` has the tests."""
     lines, wrong = [], []
 
     def made(marker):
@@ -212,27 +256,18 @@ def checked(text, results):
         return marker.group(1) + table + marker.group(6)
 
     for number, line in enumerate(ROWS.sub(made, text).split("\n"), 1):
-        line = with_words(line, number, results, wrong, RUN, lambda marker: run_of(results / marker.group(1)))
-        line = with_words(line, number, results, wrong, WORD, lambda marker: word_of(*marker.groups(), results))
+        line = filled(line, number, wrong, RUN, "word", lambda marker, _: run_of(results / marker.group(1)))
+        line = filled(line, number, wrong, WORD, "word", lambda marker, _: word_of(*marker.groups(), results))
+        line = filled(line, number, wrong, TEST, "number", lambda m, text: number_of_test(text, *m.groups(), root))
+        line = filled(
+            line, number, wrong, MARKER, "number", lambda m, text: written_like(text, value_of(*m.groups(), results))
+        )
         wrong += [f"{number}: {what}" for what in false_sentences(line, results)]
-        done, at = "", 0
-        for marker in MARKER.finditer(line):
-            before = line[at : marker.start()]
-            at = marker.end()
-            found = list(NUMBER.finditer(before))
-            try:
-                if not found:
-                    raise Stale("no number before the marker")
-                now = written_like(found[-1].group(), value_of(*marker.groups(), results))
-                if now != found[-1].group():
-                    wrong.append(f"{number}: {found[-1].group()} is stale: {now} by {marker.group()}")
-                    before = before[: found[-1].start()] + now + before[found[-1].end() :]
-            except Stale as what:
-                wrong.append(f"{number}: {what}: {marker.group()}")
-            done += before + marker.group()
-        lines.append(done + line[at:])
-        rest = LESS.sub("", ALL.sub("", WORD.sub("", RUN.sub("", MARKER.sub("", line)))))
-        if "<!-- rows" not in line and ".csv" in rest.partition("<!--")[2]:
+        lines.append(line)
+        rest = line
+        for kind in (MARKER, TEST, RUN, WORD, ALL, LESS):
+            rest = kind.sub("", rest)
+        if "<!-- rows" not in line and re.search(r"<!--.*\.csv|<!--\s*test\s", rest):
             wrong.append(f"{number}: a marker that is not understood: {line.strip()}")
     return "\n".join(lines), wrong
 
