@@ -37,7 +37,7 @@ Rows first_coupled(const Matrix& A) {
     for (int j = 0; j < size; ++j) {
       if (A(i, j) == 0.0) continue;
       const int a = std::min(first[i], first[j]), b = std::max(first[i], first[j]);
-      for (int& row : first) row = row == b ? a : row;
+      first = (first.array() == b).select(a, first);
     }
   }
   return first;

@@ -20,8 +20,8 @@ Element sylvester(const Element& A, const Element& C, const Element& R) {
     for (Eigen::Index l = 0; l < q; ++l) equations.block(j * p, l * p, p, p).diagonal().array() -= C(l, j);
   }
   using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
-  const Unknowns y = equations.partialPivLu().solve(Unknowns(R.reshaped()));
-  return y.reshaped(p, q);
+  const Unknowns y = equations.partialPivLu().solve(Eigen::Map<const Unknowns>(R.data(), p * q));
+  return Eigen::Map<const Element>(y.data(), p, q);
 }
 
 /// A quasi-triangular matrix T by its elements: those on the diagonal have one real rate or two conjugate ones.

@@ -183,7 +183,9 @@ bodies::SteppedBody* Hand::begin_step(double now, double h, const Wrench& load_W
   energy_added_before_ = hold_->energy_added();
   bodies::BodyState& o = objects_.state(grasp_.object);
   const bool was_asleep = o.asleep;
-  o.asleep = hold_->sleeps(h, objects_.rests(grasp_.object));
+  // A hand that comes back after a gap in its samples is elsewhere at once: the object follows before it may sleep.
+  const bool follows = hold_->object().X.matrix() == o.X_WO.matrix();
+  o.asleep = hold_->sleeps(h, follows && objects_.rests(grasp_.object));
   if (o.asleep) {
     hold_->advance_at_rest(h);
     o.V_WO_W = Twist();

@@ -801,6 +801,30 @@ TEST(Simulation, SleeperOnABenchWakesWhenTheHandPullsItUp) {
   EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.1);
 }
 
+TEST(Simulation, SleeperFollowsAHandThatIsElsewhereAfterAGapInItsSamples) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(0.02, 0.3), turn(-1.0, 1.0);
+  for (const scene::ContactMode contact :
+       {scene::ContactMode::none, scene::ContactMode::stop, scene::ContactMode::dynamic}) {
+    for (int i = 0; i < 4; ++i) {
+      Simulation simulation(box_scene({0.0, 0.0, 0.02}, contact), settings());
+      simulation.push_stylus({0.0, pointing_down(above)});
+      push_move(simulation, 0.02, 0.5, above, above + Vector3d(0.0, 0.0, 0.2), 0.5);
+      simulation.push_button(0.0, true);
+      simulation.advance(4.0);
+      ASSERT_TRUE(simulation.objects()[0].held && simulation.objects()[0].asleep);
+      const RigidTransform before = simulation.objects()[0].X_WO;
+      RigidTransform moved = RigidTransform::Identity();  // about the vertical, so that the fork hangs as before
+      moved.linear() = math::exp_so3(turn(random) * Vector3d::UnitZ());
+      moved.translation() = Vector3d(shift(random), shift(random), shift(random));
+      simulation.push_stylus({4.02, moved * simulation.tool().X_WH});
+      simulation.advance(7.0);
+      EXPECT_LT((simulation.objects()[0].X_WO.matrix() - (moved * before).matrix()).norm(), 1e-5) << i;
+      EXPECT_TRUE(simulation.objects()[0].asleep);
+    }
+  }
+}
+
 TEST(Simulation, MasslessObjectFollowsTheTipExactlyAndStopsAtTheBench) {
   scene::Scene scene = box_scene({0.0, 0.0, 0.1});
   scene.bodies[0].mass_properties = scene::MassProperties();
