@@ -183,18 +183,21 @@ Raises InputError, and changes nothing, if a name is not that of a movable objec
       .def(
           "edit",
           [](Simulation& s, const std::string& action, const std::string& name, const std::string& urdf,
-             const std::optional<Array>& pose, double mass, double friction) {
+             const std::optional<Array>& pose, std::optional<double> mass, std::optional<double> friction) {
+            using Action = simulation::ObjectEdit::Action;
             simulation::ObjectEdit edit;
-            edit.action = value_of<simulation::ObjectEdit::Action>(action, "action");
+            edit.action = value_of<Action>(action, "action");
+            if ((edit.action == Action::mass && !mass) || (edit.action == Action::friction && !friction))
+              throw validation::InputError("edit: missing required argument " + action);
             edit.name = name;
             edit.urdf = urdf;
             if (pose) edit.X_WL = to_pose(*pose, "pose");
-            edit.mass = mass;
-            edit.friction = friction;
+            edit.mass = mass.value_or(0.0);
+            edit.friction = friction.value_or(0.0);
             return s.edit(edit);
           },
-          py::arg("action"), py::arg("name"), py::arg("urdf") = "", py::arg("pose") = py::none(), py::arg("mass") = 0.0,
-          py::arg("friction") = 0.0,
+          py::arg("action"), py::arg("name"), py::arg("urdf") = "", py::arg("pose") = py::none(),
+          py::arg("mass") = py::none(), py::arg("friction") = py::none(),
           R"(Changes the object `name`, all or nothing; everything else continues from where it is.
 
 action: add (needs urdf; at pose or, without one, on the bench), move (needs pose), remove, mass (to mass [kg]; 0:

@@ -423,8 +423,8 @@ class Simulation:
         name: str,
         urdf: str = ...,
         pose: Optional[npt.ArrayLike] = None,
-        mass: float = 0.0,
-        friction: float = 0.0,
+        mass: Optional[float] = None,
+        friction: Optional[float] = None,
     ) -> ChangeReport:
         """Changes the object `name`, all or nothing; everything else continues from where it is.
 

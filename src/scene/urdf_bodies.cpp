@@ -136,7 +136,8 @@ class BodyBuilder {
     if (!link.inertial) return {};
     const urdf::Inertial& i = *link.inertial;
     if (!(i.mass > 0.0)) {
-      warnings_.push_back(where + ": mass " + std::to_string(i.mass) + " is not positive: <inertial> is ignored");
+      warnings_.push_back(where + ": mass " + validation::number_text(i.mass) +
+                          " is not positive: mass and inertia of its shapes are used");
       return {};
     }
     Matrix3d inertia;

@@ -184,8 +184,7 @@ bodies::SteppedBody* Hand::begin_step(double now, double h, const Wrench& load_W
   bodies::BodyState& o = objects_.state(grasp_.object);
   const bool was_asleep = o.asleep;
   // A hand that comes back after a gap in its samples is elsewhere at once: the object follows before it may sleep.
-  const bool follows = hold_->object().X.matrix() == o.X_WO.matrix();
-  o.asleep = hold_->sleeps(h, follows && objects_.rests(grasp_.object));
+  o.asleep = hold_->sleeps(h, hold_->object().X.matrix() == o.X_WO.matrix() && objects_.rests(grasp_.object));
   if (o.asleep) {
     hold_->advance_at_rest(h);
     o.V_WO_W = Twist();

@@ -37,6 +37,12 @@ class Example(unittest.TestCase):
         self.assertEqual(weight, "0.500 kg")
         self.assertAlmostEqual(float(height), 0.03 + 0.1 - 0.5 * 9.81 / 2000.0, delta=2e-4)  # weight over stiffness
 
+    def test_the_lift_of_the_library_document_prints_what_it_says(self):
+        lines = re.search(r"^```python\n(.*?)^```", (ROOT / "doc/library.md").read_text(), re.M | re.S).group(1)
+        command = [sys.executable, "-c", lines]
+        said = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
+        self.assertEqual("# " + said.strip(), lines.splitlines()[-1])
+
 
 if __name__ == "__main__":
     unittest.main()

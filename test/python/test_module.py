@@ -99,9 +99,11 @@ def test_objects_are_edited():
     simulation.advance(0.2)
     height = simulation.poses[0, 2, 3]
     assert height == pytest.approx(0.5 - 0.5 * GRAVITY * 0.2**2, abs=1e-9)
-    for action, name, word in [("mass", "bin", "name"), ("paint", "box", "action"), ("move", "box", "pose")]:
+    for action, word in [("paint", "action"), ("move", "pose"), ("mass", "mass"), ("friction", "friction")]:
         with pytest.raises(sw.InputError, match=word):
-            simulation.edit(action, name)
+            simulation.edit(action, "box")
+    with pytest.raises(sw.InputError, match="name"):
+        simulation.edit("mass", "bin", mass=1.0)
     simulation.edit("remove", "box")
     assert simulation.names == []
 
