@@ -1,5 +1,7 @@
 #include "benchmark/soak/day.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <memory>
 #include <random>
 
-#include "benchmark/soak/resident.h"
 #include "spring_workbench/live/checkpoint.h"
 #include "spring_workbench/motion/stream_clock.h"
 #include "spring_workbench/motion_files/open_motion.h"
@@ -78,7 +79,7 @@ class Day {
   /// Progress, for messages.
   std::string where() const { return std::to_string(t_) + " s, life " + std::to_string(result_.lives); }
   DayResult run() {
-    out_ << "hours,samples,lives,faults,changes,resident_MB\n";
+    out_ << "hours,samples,lives,faults,changes,memory_MB\n";
     const double end = 3600.0 * options_.hours;
     for (long tick = 0; t_ < end; ++tick) {
       t_ += kTick;
@@ -111,6 +112,9 @@ class Day {
       hand.zero = 0;
       hand.pressed = false;
     }
+    result_.memory_late = static_cast<double>(mallinfo2().uordblks);
+    if (10.0 * t_ <= 3600.0 * options_.hours)
+      result_.memory_early = std::max(result_.memory_early, result_.memory_late);
   }
   void keep_journal() {
     runner_->keep_journal(true);
@@ -296,8 +300,6 @@ class Day {
 
   void note(long tick, double end) {
     if (tick % 1000 != 0) return;
-    result_.memory_late = resident_bytes();
-    if (10.0 * t_ <= end) result_.memory_early = std::max(result_.memory_early, result_.memory_late);
     if (t_ < next_line_) return;
     next_line_ += end / 20.0;
     std::size_t faults = 0;

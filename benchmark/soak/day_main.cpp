@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
            judge(r.mismatches == 0, "each change, made again, led to the recorded state") |
            judge(r.restarts <= r.lives, "time restarted at the first sample of a life alone") |
            judge(r.lost_states == 0, "no object was elsewhere after a new master") |
-           judge(r.memory_late <= memory_growth * r.memory_early, "resident memory is flat within 1 %");
+           judge(r.memory_late <= memory_growth * r.memory_early, "memory in use as a life begins is flat within 1 %");
   } catch (const validation::InputError& error) {
     std::cerr << "live_day: " << error.what() << '\n';
     return 2;

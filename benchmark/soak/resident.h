@@ -1,20 +1,17 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <fstream>
-#include <string>
 
 namespace spring_workbench::benchmark {
 
-/// Resident memory of this process that it has allocated [bytes]: without the pages of program files, which come in as
-/// code runs for the first time.
+/// Resident memory of this process [bytes].
 inline double resident_bytes() {
-  std::ifstream file("/proc/self/status");
-  std::string word;
-  while (file >> word && word != "RssAnon:") {
-  }
-  double kilobytes = 0.0;
-  file >> kilobytes;
-  return 1024.0 * kilobytes;
+  std::ifstream file("/proc/self/statm");
+  double total = 0.0, resident = 0.0;
+  file >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace spring_workbench::benchmark
