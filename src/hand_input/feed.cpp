@@ -190,7 +190,7 @@ double Feed::time_since_arrival(const LocalTime& now) const {
   const auto newest = std::max_element(hands_.begin(), hands_.end(), [](const Hand& a, const Hand& b) {
     return a.playout.newest() < b.playout.newest();
   });
-  return newest->playout.time_since_arrival(now);
+  return std::isfinite(newest->playout.newest()) ? newest->playout.time_since_arrival(now) : 0.0;
 }
 
 void Feed::restart() {

@@ -25,7 +25,7 @@ void LoadRange::read(tools::ToolState& tool) const {
   tool.force_scale = force_scale_;
   tool.weight = tool.tip_wrench_W.force.z() / gravity_;
   tool.torque = tool.tip_wrench_W.moment.dot(tool.X_WE.linear().col(2));
-  tool.stretching_force = on_tool_H.z();
+  tool.stretching_force = on_tool_H.z() + 0.0;  // −0, without a force, would be at an angle of π
   tool.bending_force = on_tool_H.head<2>().norm();
   tool.force_angle = std::atan2(tool.bending_force, tool.stretching_force);
   tool.load = place(load(tool));

@@ -62,8 +62,8 @@ void FreeObjects::wake_supported_by(std::size_t object, double now) {
   if (!with_contact()) return;
   for (const std::size_t above : movable_on(*collision_, scene_, scene_index(object), states_[object].X_WO)) {
     const std::size_t other = object_of_[above];
-    if (!states_[other].asleep || states_[other].held || massless(other)) continue;
-    set_free(other, Twist(), now);
+    if (objects_[other].free_body || objects_[other].carried() || massless(other)) continue;
+    set_free(other, states_[other].V_WO_W, now);
     wake_supported_by(other, now);
   }
 }
@@ -72,6 +72,7 @@ void FreeObjects::start_free_flight(std::size_t object, double now) {
   bodies::BodyState& o = state(object);
   if (massless(object)) {
     o.asleep = true;
+    o.V_WO_W = Twist();
     if (dynamic_stepper_) dynamic_stepper_->world().place(scene_index(object), o.X_WO, Twist(), false);
   } else {
     set_free(object, o.V_WO_W, now);

@@ -37,7 +37,7 @@ void Objects::continue_from(const Objects& before, double now) {
     o.highlighted = false;
     objects_[i].grasping = was.grasping;
     take_state(i, {o.X_WO, o.V_WO_W, {}});
-    if (!o.asleep && !o.held) {
+    if (!o.held && (!o.asleep || massless(i) != before.massless(*same))) {
       start_free_flight(i, now);
     } else if (dynamic_stepper_) {
       dynamic_stepper_->world().place(scene_index(i), o.X_WO, o.V_WO_W, false);
@@ -66,11 +66,13 @@ void Objects::let_go(std::size_t object, Grip grip, bool thrown, double now) {
   bodies::BodyState& o = state(object);
   o.held = carried.grasping > 0;
   if (carried.grasping + carried.pushing > 0) return;
-  if (!thrown || massless(object)) o.V_WO_W = Twist();
+  if (!thrown) o.V_WO_W = Twist();
+  wake_supported_by(object, now);
   start_free_flight(object, now);
 }
 
 void Objects::place(std::size_t object, const RigidTransform& X_WO, double now) {
+  wake_supported_by(object, now);
   take_state(object, {X_WO, Twist(), {}});
   start_free_flight(object, now);
 }
@@ -266,6 +268,9 @@ void Objects::Archive::exchange(math::StateArchive& state, const std::vector<std
   if (of_.dynamic_stepper_) state(*of_.dynamic_stepper_);
 }
 
-bool Objects::rests(std::size_t object) const { return dynamic_stepper_ ? !any_free() : !touches_moving_body(object); }
+bool Objects::rests(std::size_t object) const {
+  if (dynamic_stepper_) return !any_free();
+  return states_[object].asleep || !touches_moving_body(object);  // for others, it is where it is
+}
 
 }  // namespace spring_workbench::objects

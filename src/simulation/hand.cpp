@@ -182,15 +182,15 @@ bodies::SteppedBody* Hand::begin_step(double now, double h, const Wrench& load_W
   if (slip_.open()) hold_->take_twist(object().V_WO_W);
   energy_added_before_ = hold_->energy_added();
   bodies::BodyState& o = objects_.state(grasp_.object);
-  const bool was_asleep = o.asleep;
   // A hand that comes back after a gap in its samples is elsewhere at once: the object follows before it may sleep.
-  o.asleep = hold_->sleeps(h, hold_->object().X.matrix() == o.X_WO.matrix() && objects_.rests(grasp_.object));
+  const bool was_asleep = o.asleep, follows = hold_->object().X.matrix() == o.X_WO.matrix();
+  o.asleep = hold_->sleeps(h, follows && objects_.rests(grasp_.object));
   if (o.asleep) {
     hold_->advance_at_rest(h);
     o.V_WO_W = Twist();
     return nullptr;
   }
-  if (was_asleep && scene_.contact == scene::ContactMode::stop) objects_.wake_supported_by(grasp_.object, now);
+  if (was_asleep || !follows) objects_.wake_supported_by(grasp_.object, now);
   moved_ = true;
   return hold_.get();
 }

@@ -539,7 +539,6 @@ void Simulation::Impl::move(const ObjectEdit& edit) {
   }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
   check_place(edit.name, X_WO);
-  objects.wake_supported_by(object, now);
   objects.place(object, X_WO, now);
 }
 

@@ -216,7 +216,7 @@ bool ForkBody::sleeps(double h, bool may_fall_asleep) {
   };
   const bool hand_rests = still(begin) && still(end) && begin.X.matrix() == end.X.matrix();
   const bool asleep = sleep_.version == held_.version() && sleep_.X_WH.matrix() == begin.X.matrix();
-  if (hand_rests && asleep) return true;
+  if (hand_rests && asleep && may_fall_asleep) return true;
   sleep_ = Sleep();
   if (!hand_rests || !may_fall_asleep || state_.proxy.behind() || held_.returning()) return false;
   const motion::MotionState o = object_with_acceleration();

@@ -36,7 +36,11 @@ class Stylus {
   }
 
   bool push(const PoseSample& sample) { return track_.push(sample); }
-  void push(double t, ButtonEdge press) { presses_.push_back({t, press}); }
+  void push(double t, ButtonEdge press) {
+    auto at = presses_.end();
+    while (at != presses_.begin() && std::prev(at)->t > t) --at;
+    presses_.insert(at, {t, press});
+  }
   void push(const ExternalWrench& sample) { wrench_.push(sample); }
   const PoseTrack& track() const { return track_; }
   /// Whether its pose at time `now` [s] is known from samples.
