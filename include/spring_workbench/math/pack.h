@@ -27,14 +27,8 @@ SPRING_WORKBENCH_INLINE double lane(double x, int) { return x; }
 template <typename S>
 constexpr int lanes = sizeof(S) / sizeof(double);
 
-template <typename S>
-SPRING_WORKBENCH_INLINE void set_lane(S& p, int i, double x) {
-  if constexpr (lanes<S> == 1) {
-    p = x;
-  } else {
-    p[i] = x;
-  }
-}
+SPRING_WORKBENCH_INLINE void set_lane(Pack& p, int i, double x) { p[i] = x; }
+SPRING_WORKBENCH_INLINE void set_lane(double& p, int, double x) { p = x; }
 template <typename S>
 SPRING_WORKBENCH_INLINE double largest(const S& p) {
   double result = lane(p, 0);
