@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "spring_workbench/math/rigid_transform.h"
 
 // Arithmetic on several numbers at once: code written once for a scalar `S` works for `double` and for `Pack`.
@@ -20,6 +22,8 @@ namespace spring_workbench::math {
 /// Four numbers in one register, or in two.
 using Pack = double __attribute__((vector_size(32)));
 constexpr int pack_size = 4;
+
+SPRING_WORKBENCH_INLINE Pack pack(const std::array<double, 4>& x) { return Pack{x[0], x[1], x[2], x[3]}; }
 
 /// Lane `i` of a pack, or the number itself.
 SPRING_WORKBENCH_INLINE double lane(const Pack& p, int i) { return p[i]; }
