@@ -5,7 +5,7 @@ option(SPRING_WORKBENCH_WITH_BULLET "Contact mode dynamic, where Bullet and FCL 
 
 set(SPRING_WORKBENCH_FCL_FOUND OFF)
 if(SPRING_WORKBENCH_WITH_FCL)
-  find_package(fcl QUIET)
+  find_package(fcl QUIET)   # FCL 0.5 is not found by this
   if(fcl_FOUND)
     set(SPRING_WORKBENCH_FCL_FOUND ON)
   endif()
@@ -35,7 +35,7 @@ function(add_engines target)
 endfunction()
 
 if(NOT SPRING_WORKBENCH_FCL_FOUND)
-  message(STATUS "FCL (libfcl-dev) left out: no contact mode stop")
+  message(STATUS "FCL 0.6 or later (libfcl-dev) left out: no contact mode stop")
 endif()
 if(NOT SPRING_WORKBENCH_BULLET_FOUND)
   message(STATUS "Bullet (libbullet-dev) left out: no contact mode dynamic")

@@ -7,7 +7,7 @@ if(NOT PYTHON_EXECUTABLE)
   set(PYTHON_EXECUTABLE ${Python3_EXECUTABLE})
 endif()
 execute_process(COMMAND ${PYTHON_EXECUTABLE} -c
-  "import sys, sysconfig as s; print('lib/python%d.%d/' % sys.version_info[:2] + s.get_path('purelib').split('/')[-1])"
+  "import site, sys; print('lib/python%d.%d/' % sys.version_info[:2] + site.getsitepackages()[0].split('/')[-1])"
   OUTPUT_VARIABLE python_folder OUTPUT_STRIP_TRAILING_WHITESPACE)
 
 # Where things are installed, below the prefix, and where they are built.

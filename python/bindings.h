@@ -59,10 +59,10 @@ E value_of(const std::string& word, const std::string& key) {
   refuse(key, word, "one of " + known);
 }
 
-void bind_states(pybind11::module_& module);
-void bind_settings(pybind11::module_& module);
-void bind_motions(pybind11::module_& module);
-void bind_simulation(pybind11::module_& module);
+void bind_states(pybind11::module& module);
+void bind_settings(pybind11::module& module);
+void bind_motions(pybind11::module& module);
+void bind_simulation(pybind11::module& module);
 
 /// A complete recorded hand.
 struct Motion {

@@ -82,7 +82,7 @@ std::vector<std::string> names(const Simulation& of) {
   return all;
 }
 
-void bind_scene(py::module_& module) {
+void bind_scene(py::module& module) {
   using scene::Scene;
   py::class_<Scene>(module, "Scene",
                     "Bodies, materials and gravity of a scene, read from a URDF and the YAML file next to it.")
@@ -157,7 +157,8 @@ void bind_changes(py::class_<Simulation>& type) {
           py::arg("tool"), py::arg("hand") = 0,
           "Changes the tool in a hand, or with None in each, to spring, spring_fork, spring_probe, direct or ray. What "
           "it holds stays in hand, except with spring_probe.")
-      .def("change", &change, py::kw_only(), py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
+      // By name only, says the stub: pybind11 before 2.6 cannot.
+      .def("change", &change, py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
            py::arg("dofs") = py::none(), py::arg("integrator") = py::none(), py::arg("step") = py::none(),
            py::arg("tolerance") = py::none(), py::arg("damping_coefficient") = py::none(),
            py::arg("damping_law") = py::none(), py::arg("damping") = py::none(), py::arg("hand") = py::none(),
@@ -219,7 +220,7 @@ SimulationSettings to_settings(const py::dict& values) {
 
 }  // namespace
 
-void bind_settings(py::module_& module) {
+void bind_settings(py::module& module) {
   using simulation::SettingDescription;
   py::class_<SettingDescription>(module, "SettingDescription", "Description of one setting.")
       .def_readonly("key", &SettingDescription::key, "Key of the setting, with dots.")
@@ -238,7 +239,7 @@ void bind_settings(py::module_& module) {
            "Sets these values, all or none. Raises InputError as the constructor does.");
 }
 
-void bind_simulation(py::module_& module) {
+void bind_simulation(py::module& module) {
   bind_scene(module);
   py::class_<Simulation> type(module, "Simulation", R"(Simulation of a scene with hands and their tools.
 

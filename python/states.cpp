@@ -18,7 +18,7 @@ const char* phase_of(contact::ContactPhase phase) {
   return "ended";
 }
 
-void bind_tool(py::module_& module) {
+void bind_tool(py::module& module) {
   using tools::ToolState;
   const auto per_dof = [](const rod::PerDof& values) {
     return to_array(Vector3d(values.stretch, values.bend, values.torsion));
@@ -100,7 +100,7 @@ void bind_tool(py::module_& module) {
                     "One standard deviation of that reading [N/m].");
 }
 
-void bind_contact(py::module_& module) {
+void bind_contact(py::module& module) {
   using contact::ContactState;
   py::class_<ContactState>(module, "ContactState", "Contact point between an object and another body, in world axes.")
       .def_readonly("object", &ContactState::object, "Name of the object.")
@@ -119,7 +119,7 @@ void bind_contact(py::module_& module) {
           "Phase of the contact: started, persisting or ended.");
 }
 
-void bind_report(py::module_& module) {
+void bind_report(py::module& module) {
   using simulation::AdvanceReport;
   py::class_<AdvanceReport>(module, "AdvanceReport", "Report of one call of `advance`.")
       .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
@@ -175,7 +175,7 @@ void bind_report(py::module_& module) {
 
 }  // namespace
 
-void bind_states(py::module_& module) {
+void bind_states(py::module& module) {
   using simulation::SimulationState;
   bind_tool(module);
   bind_contact(module);
@@ -192,7 +192,7 @@ void bind_states(py::module_& module) {
                       [](const std::string& text) { return simulation::parse_state(text); }));
 }
 
-void bind_motions(py::module_& module) {
+void bind_motions(py::module& module) {
   py::class_<Motion>(module, "Motion", "Recorded motion of one hand.")
       .def(
           "__len__", [](const Motion& m) { return m.samples.size(); }, "Number of samples.")

@@ -103,6 +103,10 @@ RigidTransform read_pose(const YAML::Node& node, const std::string& where, const
   return make_transform(q, Vector3d(v[0], v[1], v[2]));
 }
 
+YAML::Node number_node(double number) {
+  return std::isinf(number) ? YAML::Node(number > 0.0 ? ".inf" : "-.inf") : YAML::Node(number);
+}
+
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed) {
   if (!map.IsDefined() || !map.IsMap()) {

@@ -10,6 +10,7 @@
 #include "mesh_file.h"
 #include "scene_file.h"
 #include "spring_workbench/config/output_file.h"
+#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/editing.h"
 #include "spring_workbench/validation/names.h"
@@ -154,7 +155,7 @@ YAML::Node node_of(const Material& material) {
   node["friction"] = material.friction;
   node["restitution"] = material.restitution;
   node["density"] = material.density;
-  node["material_stiffness"] = material.stiffness;
+  node["material_stiffness"] = config::number_node(material.stiffness);
   return node;
 }
 
@@ -178,7 +179,7 @@ std::string yaml_of(const Scene& scene) {
     node["pose"] = numbers(target.X_WL);
     node["position_tolerance"] = target.position_tolerance;
     node["angle_tolerance"] = target.angle_tolerance;
-    node["max_force"] = target.max_force;
+    node["max_force"] = config::number_node(target.max_force);
     for (const Vector3d& p : target.p_LG) node["grips"].push_back(std::vector<double>{p.x(), p.y(), p.z()});
     map["targets"][name] = node;
   }

@@ -34,6 +34,9 @@ std::vector<double> read_numbers(const YAML::Node& node, const std::string& wher
 /// Reads a pose `x y z qx qy qz qw` (list or string) [m, –]. The quaternion is normalised; a zero one is refused.
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key);
 
+/// A number, which may be infinite: yaml-cpp before 0.6.3 cannot read the infinity that it writes.
+YAML::Node number_node(double number);
+
 /// Reads the value of `key` in `map` by one of these readers. If it is missing, the message gives the line of the map.
 /// `prefix` precedes the key in messages.
 template <typename Read, typename... Rule>

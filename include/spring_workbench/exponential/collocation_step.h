@@ -66,7 +66,7 @@ class CollocationStep {
                                       Strain& q_dot) {
     propagator_.prepare(h);
     const Strain q0 = q, q_dot0 = q_dot, linear = part().force(q0, q_dot0);
-    const Forcing forcing = equation.forcing(input, t + h * pack(Collocation::nodes));
+    const Forcing forcing = equation.forcing(input, t + h * math::pack(Collocation::nodes));
     const NodeStrains by_forcing = equation.by_forcing(forcing, modes());
     const Residual<n, Equation> residual(equation, part(), q0, q_dot0);
     NodeStrains r = first_residual(equation, input, t, h, q0, q_dot0, linear, by_forcing);
@@ -74,7 +74,7 @@ class CollocationStep {
     propagator_.begin(q_dot0, begin, begin_samples);
     propagator_.drive(begin, in_modes, x);
 
-    const Forcing at_samples = equation.forcing(input, t + h * pack(Collocation::samples));
+    const Forcing at_samples = equation.forcing(input, t + h * math::pack(Collocation::samples));
     const double squared_rounding = equation.squared_rounding(forcing, modes(), h, q0, q_dot0);
     const auto cancelled = [&] {
       return rounding * rounding *
@@ -122,7 +122,6 @@ class CollocationStep {
  private:
   static constexpr double rounding = 1e-15;  ///< relative rounding error of a step
   static constexpr std::size_t at(int i) { return Propagator::at(i); }
-  static math::Pack pack(const Collocation::Row& x) { return math::Pack{x[0], x[1], x[2], x[3]}; }
   const typename Propagator::Part& part() const { return propagator_.part(); }
   const ModeNorm<2 * n>& norm() const { return propagator_.norm(); }
   const typename Equation::ModalDecomposition& modes() const { return propagator_.modes(); }

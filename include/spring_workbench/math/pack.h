@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "spring_workbench/math/rigid_transform.h"
 
 // Arithmetic on several numbers at once: code written once for a scalar `S` works for `double` and for `Pack`.
@@ -21,20 +23,16 @@ namespace spring_workbench::math {
 using Pack = double __attribute__((vector_size(32)));
 constexpr int pack_size = 4;
 
+SPRING_WORKBENCH_INLINE Pack pack(const std::array<double, 4>& x) { return Pack{x[0], x[1], x[2], x[3]}; }
+
 /// Lane `i` of a pack, or the number itself.
 SPRING_WORKBENCH_INLINE double lane(const Pack& p, int i) { return p[i]; }
 SPRING_WORKBENCH_INLINE double lane(double x, int) { return x; }
 template <typename S>
 constexpr int lanes = sizeof(S) / sizeof(double);
 
-template <typename S>
-SPRING_WORKBENCH_INLINE void set_lane(S& p, int i, double x) {
-  if constexpr (lanes<S> == 1) {
-    p = x;
-  } else {
-    p[i] = x;
-  }
-}
+SPRING_WORKBENCH_INLINE void set_lane(Pack& p, int i, double x) { p[i] = x; }
+SPRING_WORKBENCH_INLINE void set_lane(double& p, int, double x) { p = x; }
 template <typename S>
 SPRING_WORKBENCH_INLINE double largest(const S& p) {
   double result = lane(p, 0);

@@ -14,7 +14,7 @@ YAML::Node to_yaml(const XmlRpc::XmlRpcValue& value, const std::string& key) {
       node = static_cast<int>(copy);
       break;
     case XmlRpc::XmlRpcValue::TypeDouble:
-      node = static_cast<double>(copy);
+      node = config::number_node(static_cast<double>(copy));
       break;
     case XmlRpc::XmlRpcValue::TypeString:
       node = static_cast<std::string>(copy);
