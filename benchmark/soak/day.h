@@ -24,9 +24,8 @@ struct DayResult {
   std::size_t restarts = 0;     ///< restarts of the hands' time; each life has one, at its first sample
   std::size_t lost_states = 0;  ///< objects whose pose a new life did not restore
   bool finite = true;
-  double memory_early =
-             0.0,  ///< heap in use as a life begins [bytes]: maximum in the first tenth, and of the last life
-      memory_late = 0.0;
+  double memory_early = 0.0;                ///< heap in use as a life begins [bytes]: maximum in the first tenth
+  double memory_late = 0.0;                 ///< of the last life
   std::uint64_t hash = 0, replay_hash = 0;  ///< of all states at the ends of lives
 };
 
