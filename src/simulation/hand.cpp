@@ -176,22 +176,21 @@ tools::ToolOnObject Hand::begin_shared_step(double now, double h) {
 }
 
 bodies::SteppedBody* Hand::begin_step(double now, double h, const Wrench& load_W) {
+  const motion::MotionSegment before = hold_->hand();
   hold_->set_hand(slip_.motion(stylus_.motion(now), now, h), now);
   hold_->set_load(load_W);
   hold_->lead({});
   if (slip_.open()) hold_->take_twist(object().V_WO_W);
   energy_added_before_ = hold_->energy_added();
   bodies::BodyState& o = objects_.state(grasp_.object);
-  // A hand that comes back after a gap in its samples is elsewhere at once: the object follows before it may sleep.
-  const bool was_asleep = o.asleep, follows = !was_asleep || hold_->object().X.matrix() == o.X_WO.matrix();
-  o.asleep = hold_->sleeps(h, follows && objects_.rests(grasp_.object));
+  const bool was_asleep = o.asleep, jumps = before.rests_apart_from(hold_->hand(), now);  // after a gap
+  o.asleep = hold_->sleeps(h, !jumps && objects_.rests(grasp_.object));
   if (o.asleep) {
     hold_->advance_at_rest(h);
-    if (!was_asleep) o.X_WO = hold_->object().X;
     o.V_WO_W = Twist();
     return nullptr;
   }
-  if (was_asleep) objects_.wake_supported_by(grasp_.object, now);
+  if (was_asleep || jumps) objects_.wake_supported_by(grasp_.object, now);
   moved_ = true;
   return hold_.get();
 }

@@ -141,9 +141,8 @@ class Hand {
   std::unique_ptr<tools::ToolHold> hold_;  ///< while something is held
   std::unique_ptr<tools::Probe> probe_;    ///< while the probe touches something
   bool pushes_ = false;                    ///< whether the touched body is movable; it is then the grasp's object
-  tools::Grasp grasp_{tools::Tool::spring_fork,   0,   RigidTransform::Identity(),
-                      RigidTransform::Identity(), 0.0, 0.0};  ///< grasp of the held object
-  bool moved_ = false;  ///< whether the held object has moved in this call of advance
+  tools::Grasp grasp_;                     ///< of the held object
+  bool moved_ = false;                     ///< whether the held object has moved in this call of advance
   double energy_added_before_ = 0.0;
   motion::Slip slip_;
   std::unique_ptr<bodies::SteppedBody> pulled_;  ///< the held object, in a step in which the tool slips

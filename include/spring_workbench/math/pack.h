@@ -10,7 +10,9 @@
 
 /// Compiles a function twice: for any processor, and for those with AVX and FMA (a pack in one register, fused
 /// multiply-add). The choice is made at program start. For free and non-virtual functions that take packs by reference.
-#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 11 && !defined(__clang__) && !defined(__AVX2__) && \
+/// A build that defines it as nothing has the first version alone: the same digits on all processors.
+#if defined(SPRING_WORKBENCH_WIDE)
+#elif defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 11 && !defined(__clang__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SPRING_WORKBENCH_WIDE __attribute__((target_clones("default", "fma")))
 #else

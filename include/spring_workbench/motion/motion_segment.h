@@ -74,6 +74,10 @@ class MotionSegment final : public FrameMotion {
   MotionState at(double t) const;
   OwnAxesMotion in_own_axes(double t) const override;
   FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override;
+  /// Whether this frame is at rest, and somewhere else than `next` has it at time `t` [s].
+  bool rests_apart_from(const MotionSegment& next, double t) const {
+    return !moving_ && at(t).X.matrix() != next.at(t).X.matrix();
+  }
 
   void exchange(math::StateArchive& state) {
     state(X_a_, begin_, end_, moving_, turning_, position_, rotation_, has_offset_, X_BC_);

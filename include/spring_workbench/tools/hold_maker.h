@@ -13,11 +13,11 @@ namespace spring_workbench::tools {
 /// Geometry of a tool's hold on an object.
 struct Grasp {
   Tool tool = Tool::spring_fork;
-  std::size_t object = 0;  ///< index among the movable objects
-  RigidTransform X_WS;     ///< pose of the stylus
-  RigidTransform X_OE;     ///< pose of the tip in the object
-  double reach = 0.0;      ///< distance from the stylus to the tip along z [m]
-  double length = 0.0;     ///< length of the spring part of a fork [m]; the rest of the reach is rigid
+  std::size_t object = 0;                            ///< index among the movable objects
+  RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus
+  RigidTransform X_OE = RigidTransform::Identity();  ///< pose of the tip in the object
+  double reach = 0.0;                                ///< distance from the stylus to the tip along z [m]
+  double length = 0.0;  ///< length of the spring part of a fork [m]; the rest of the reach is rigid
 
   void exchange(math::StateArchive& state) { state(tool, object, X_WS, X_OE, reach, length); }
 };
