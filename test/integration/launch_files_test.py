@@ -100,6 +100,14 @@ class LaunchFiles(unittest.TestCase):
         expected.update({"input/dead_band/angle": 0.01, "input/dead_band/distance": 1e-3})
         self.assertEqual({key: parameters["/manipulation/" + key] for key in expected}, expected)
 
+    def test_tracker_and_manipulation_name_the_same_frames(self):
+        for source in ("mouse", "fastrak", "operator"):  # one of each way to start a tracker
+            arguments = ["input:=" + source, "stylus_frame:=pen", "workbench_frame:=table"]
+            parameters = self.parameters("workbench.launch", *arguments)
+            for node in ("/manipulation/", "/tracker_driver/"):
+                frames = [parameters[node + key] for key in ("stylus_frame", "workbench_frame")]
+                self.assertEqual(frames, ["pen", "table"], (source, node))
+
     def test_bag_moves_the_object(self):
         folder = tempfile.mkdtemp()
         bag = os.path.join(folder, "hand.bag")
@@ -133,7 +141,8 @@ class LaunchFiles(unittest.TestCase):
         objects, changes = Listener("manipulation/objects", ObjectStates), Listener("manipulation/changes", Change)
         with tempfile.TemporaryDirectory() as folder:
             record = "record:=" + os.path.join(folder, "run")
-            with Launched("workbench.launch", "rviz:=false", "pause:=0", record):
+            frames = ["stylus_frame:=pen", "workbench_frame:=table"]
+            with Launched("workbench.launch", "rviz:=false", "pause:=0", record, *frames):
                 wait_for(self.recorder_is_connected, "the recorder")
                 objects.next(lambda m: any(o.held for o in m.objects), "an object to be held")
                 for _ in range(2):  # the recorder may lose what comes as it is ended
