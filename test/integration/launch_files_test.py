@@ -19,6 +19,7 @@ import rospy
 import rostest
 import yaml
 from spring_workbench.msg import Change, ForkState, ObjectStates, StepReport, TaskState
+from tf2_msgs.msg import TFMessage
 
 from screen import screen
 from stack import Launched, Listener, make_bag, slave_api, wait_for
@@ -70,6 +71,8 @@ class LaunchFiles(unittest.TestCase):
         rospy.set_param("/use_sim_time", False)
         tasks, held = Listener("manipulation/task", TaskState), set()
         forks = [Listener("manipulation/fork" + suffix, ForkState) for suffix in ("", "_2")]
+        poses = Listener("/tf", TFMessage)
+        self.addCleanup(poses.subscriber.unregister)
         scene = "scene:=package://spring_workbench/scenes/two_handed.urdf"
         with Launched("workbench.launch", scene, "input:=operator", "rviz:=false"):
 
@@ -78,6 +81,11 @@ class LaunchFiles(unittest.TestCase):
                 return tasks.last and tasks.last.complete
 
             wait_for(complete, "all objects in place", deadline=240.0)
+        stamps = [
+            {t.header.stamp for m in poses.messages for t in m.transforms if t.child_frame_id == stylus}
+            for stylus in ("stylus", "stylus_2")
+        ]
+        self.assertGreater(len(stamps[0] & stamps[1]), 0.9 * min(map(len, stamps)))  # both hands move at one time
         self.assertGreaterEqual(tasks.last.grasps, 4)  # each hand scores: two on the bar, and two on the box
         self.assertLessEqual({("bar", "bar"), ("box", ""), ("box", "box"), ("", "box")}, held)
 
