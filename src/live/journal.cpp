@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 #include "spring_workbench/validation/number_rule.h"
 
@@ -15,6 +16,21 @@ Change comparison_of(const simulation::Simulation& simulation) {
   change.scene = simulation.scene().path;
   change.hash_before = simulation.state_hash();
   return change;
+}
+
+std::vector<std::vector<Entry>> lives_of(std::vector<Entry> entries) {
+  std::vector<std::vector<Entry>> lives;
+  std::map<std::size_t, std::uint64_t> newest;  // index by topic, in the present life
+  for (Entry& entry : entries) {
+    const auto [before, is_first] = newest.try_emplace(entry.what.index(), entry.index);
+    if (lives.empty() || (!is_first && entry.index <= before->second)) {
+      lives.emplace_back();
+      newest.clear();
+    }
+    newest[entry.what.index()] = entry.index;
+    lives.back().push_back(std::move(entry));
+  }
+  return lives;
 }
 
 std::vector<Entry> from_first_complete(std::vector<Entry> entries) {

@@ -184,9 +184,7 @@ ChangeReport SimulationRunner::change(const std::string& what, const Command& co
   const RecordedChange noted(*this, what, command);
   if (!simulated_time_) pace_.changed();
   ChangeReport report = undo_.perform(command, simulation_);
-  const bool taken_back = command.kind == Command::Kind::undo;
-  if (taken_back || command.kind == Command::Kind::edit) scene_changed();
-  if (taken_back) feed_.restart();
+  if (command.kind == Command::Kind::undo || command.kind == Command::Kind::edit) scene_changed();
   return report;
 }
 

@@ -29,9 +29,7 @@ ChangeReport Undo::perform(const Command& command, simulation::Simulation& simul
 
 std::string Undo::take_back(simulation::Simulation& simulation) {
   if (before_.empty()) throw validation::InputError("nothing was edited or reset since the scene was loaded");
-  const double now = simulation.time();
-  simulation.restore(before_.back().second);
-  put_to_rest(simulation, now);
+  simulation.go_back_to(before_.back().second);
   std::string undone = std::move(before_.back().first);
   before_.pop_back();
   return undone;

@@ -23,11 +23,9 @@ Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, object
 void Hand::reset() {
   stylus_.reset();
   inserted_.reset();
-  pressed_ = false;
-  grasped_by_name_ = false;
+  pressed_ = grasped_by_name_ = pushes_ = false;
   hold_.reset();
   probe_.reset();
-  pushes_ = false;
 }
 
 void Hand::continue_from(Hand& before, const std::string& new_mass, double now) {

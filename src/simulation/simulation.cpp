@@ -147,8 +147,20 @@ struct Simulation::Impl {
     tools::damp_calibrated(settings.fork);
   }
 
-  /// The time of the first sample of any hand; infinity if there is none.
-  double first_sample() const;
+  /// The earliest of a time of each hand's stylus.
+  template <typename TimeOf>
+  double earliest(TimeOf&& time_of) const {
+    double earliest = std::numeric_limits<double>::infinity();
+    for (const Hand& hand : hands) earliest = std::min(earliest, time_of(hand.stylus()));
+    return earliest;
+  }
+  double first_sample() const { return earliest(std::mem_fn(&motion::Stylus::first_sample)); }
+  double next_sample(double after) const {
+    return earliest([&](const motion::Stylus& stylus) { return stylus.next_sample(after); });
+  }
+  double next_edge() const {
+    return earliest([&](const motion::Stylus& stylus) { return stylus.next_edge(now); });
+  }
   void start(double t_end);
   void advance(double t_end, AdvanceReport& report);
   void act(AdvanceReport& report);
@@ -159,8 +171,6 @@ struct Simulation::Impl {
   void with_handover(Change&& change);
   using Slipping = std::map<Hand*, Wrench>;  ///< limited wrenches of slipping tools on their objects
   Wrench load(std::size_t object, const std::vector<Hand*>& on_it, const Slipping& slipping) const;
-  double next_sample(double after) const;
-  double next_edge() const;
   double end_of_step(double t_end) const;
   Slipping beyond_limits(const Slipping& slipping);
   std::vector<objects::Carried> carried;  ///< bodies of one step; a member to reuse its memory, like `together`
@@ -176,14 +186,6 @@ struct Simulation::Impl {
   void check_place(const std::string& name, const RigidTransform& X_WO) const;
   void fill_subsystems(AdvanceReport& report) const;
 };
-
-double Simulation::Impl::first_sample() const {
-  double first = std::numeric_limits<double>::infinity();
-  for (const Hand& hand : hands) {
-    if (!hand.stylus().track().empty()) first = std::min(first, hand.stylus().track().begin());
-  }
-  return first;
-}
 
 void Simulation::Impl::start(double t_end) {
   if (started) return;
@@ -228,18 +230,6 @@ void Simulation::Impl::act(AdvanceReport& report) {
       hand.apply_buttons(now);
     }
   });
-}
-
-double Simulation::Impl::next_sample(double after) const {
-  double next = std::numeric_limits<double>::infinity();
-  for (const Hand& hand : hands) next = std::min(next, hand.stylus().next_sample(after));
-  return next;
-}
-
-double Simulation::Impl::next_edge() const {
-  double next = std::numeric_limits<double>::infinity();
-  for (const Hand& hand : hands) next = std::min(next, hand.stylus().next_edge(now));
-  return next;
 }
 
 /// End time of the next step: at the next sample, button edge or change of a wrench, or earlier.
@@ -582,14 +572,6 @@ ChangeReport Simulation::edit(const ObjectEdit& edit, const std::vector<std::str
   });
 }
 
-scene::Scene Simulation::scene_now() const {
-  scene::Scene scene = impl_->scene;
-  for (const bodies::BodyState& object : impl_->objects.states()) {
-    scene.bodies[*scene::find_body(scene, object.name)].X_WO = object.X_WO;
-  }
-  return scene;
-}
-
 ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
   return reported(*this, [&] {
     std::string message;
@@ -625,6 +607,22 @@ void Simulation::restore(const SimulationState& state) {
     impl_->set(present.words_);
     throw validation::InputError(std::string("state: not a saved state: ") + error.what());
   }
+}
+
+void Simulation::go_back_to(const SimulationState& state) {
+  const auto exchange_kept = [this](math::StateArchive& kept) {
+    kept(impl_->now, impl_->requested_time, impl_->started);
+    for (Hand& hand : impl_->hands) kept(hand.stylus());
+  };
+  math::StateArchive present;
+  exchange_kept(present);
+  restore(state);
+  std::map<std::string, RigidTransform> X_WO;
+  for (const bodies::BodyState& object : objects()) X_WO[object.name] = object.X_WO;
+  reset();
+  math::StateArchive kept(present.taken());
+  exchange_kept(kept);
+  place(X_WO);
 }
 
 void Simulation::follow(const Simulation& other) {

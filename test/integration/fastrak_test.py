@@ -13,7 +13,16 @@ from stack import Listener, diagnostic_values, diagnostics_listener, wait_for
 
 RATE = 30.0  # [Hz] of each of four stations
 COUNT = 150
+STEADY = 60  # poses in a row whose stamps follow the device
 LATENCY = 0.25  # [s] of the parameter
+LOOP = 0.98  # [s] of the file, in which the device moves along x from 1 to 1.49 m
+
+
+def follow_the_device(transforms):
+    """Whether the stamps are, up to whole loops of the file, a constant time after the device measured these poses."""
+    late = [t.header.stamp.to_sec() - (t.transform.translation.y - 1.0) / 0.5 for t in transforms]
+    from_first = [(x - late[0] + 0.5 * LOOP) % LOOP - 0.5 * LOOP for x in late]
+    return max(from_first) - min(from_first) < 0.25 / RATE
 
 
 class Fastrak(unittest.TestCase):
@@ -37,7 +46,6 @@ class Fastrak(unittest.TestCase):
             transforms = of(frame)[:COUNT]
             stamps = [t.header.stamp.to_sec() for t in transforms]
             self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])))
-            self.assertAlmostEqual((COUNT - 1) / (stamps[-1] - stamps[0]) / RATE, 1.0, delta=0.2)
             for t in transforms:
                 self.assertEqual(t.header.frame_id, "workbench")
                 # The file: (1 + s, 2, 3) with s from 0 to 0.49; the transmitter is turned by 90 degrees about z.
@@ -45,6 +53,8 @@ class Fastrak(unittest.TestCase):
                 self.assertAlmostEqual(p.x, -2.0, delta=1e-6)
                 self.assertAlmostEqual(p.z, 3.5, delta=1e-6)
                 self.assertTrue(0.999 < p.y < 1.491, p.y)
+        for frame in frames:  # a busy machine may lose or delay records for a while
+            wait_for(lambda: follow_the_device(of(frame)[-STEADY:]), "even stamps of " + frame)
         eyes = {t.child_frame_id: t.header.frame_id for m in statics.messages for t in m.transforms}
         self.assertEqual(
             eyes, {"eye_left": "head", "eye_right": "head", "eye_left_2": "head_2", "eye_right_2": "head_2"}

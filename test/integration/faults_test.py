@@ -358,6 +358,39 @@ class Faults(unittest.TestCase):
             self.follow(poses)
         self.end(node)
 
+    def lost(self, diagnostics):
+        """Number of messages on /second/tf that the second node says it has lost."""
+        return diagnostic_values(diagnostics.messages, "/second/manipulation: messages lost").get("/second/tf")
+
+    def test_no_message_counts_as_lost_because_the_node_sends_on_the_topic_itself(self):
+        """Its own messages reach it among those of others; a full queue is far away."""
+        diagnostics, frames = diagnostics_listener(), Listener("/second/tf", TFMessage)
+        for listener in (diagnostics, frames):
+            self.addCleanup(listener.subscriber.unregister)
+        node, poses = self.second_node(subprocess.DEVNULL)
+        self.follow(poses)
+        is_own = lambda m: m._connection_header["callerid"] == "/second/manipulation"
+        noise, over = Written(TFMessage([TransformStamped(child_frame_id="noise")])), threading.Event()
+
+        def make_noise():
+            while not over.wait(1e-3):
+                for _ in range(3):
+                    self.hand.tf.publish(noise)
+
+        other = threading.Thread(target=make_noise)
+        other.start()
+        self.addCleanup(other.join)
+        self.addCleanup(over.set)
+        end = time.monotonic() + DEADLINE
+        while sum(is_own(m) for m in frames.messages) < 200:
+            self.assertLess(time.monotonic(), end, "the node sends nothing")
+            self.hand.run(0.3)
+        over.set()
+        said = len(diagnostics.messages)
+        wait_for(lambda: len(diagnostics.messages) > said + 1, "the count after that")
+        self.assertEqual(self.lost(diagnostics), "0")
+        self.end(node)
+
     def test_messages_lost_at_a_full_queue_are_counted(self):
         """While its callback thread is stopped, all but the newest messages are dropped, and each is counted. They come
         from a sender that is not the newest."""
@@ -366,8 +399,7 @@ class Faults(unittest.TestCase):
         self.addCleanup(diagnostics.subscriber.unregister)
         node, poses = self.second_node(subprocess.DEVNULL)
 
-        def told():
-            return diagnostic_values(diagnostics.messages, "/second/manipulation: messages lost").get("/second/tf")
+        told = lambda: self.lost(diagnostics)
 
         def senders():
             connections = slave_api("/second/manipulation").getBusInfo("/faults")[2]

@@ -19,6 +19,7 @@ import rospy
 import rostest
 import yaml
 from spring_workbench.msg import Change, ForkState, ObjectStates, StepReport, TaskState
+from tf2_msgs.msg import TFMessage
 
 from screen import screen
 from stack import Launched, Listener, make_bag, slave_api, wait_for
@@ -70,6 +71,8 @@ class LaunchFiles(unittest.TestCase):
         rospy.set_param("/use_sim_time", False)
         tasks, held = Listener("manipulation/task", TaskState), set()
         forks = [Listener("manipulation/fork" + suffix, ForkState) for suffix in ("", "_2")]
+        poses = Listener("/tf", TFMessage)
+        self.addCleanup(poses.subscriber.unregister)
         scene = "scene:=package://spring_workbench/scenes/two_handed.urdf"
         with Launched("workbench.launch", scene, "input:=operator", "rviz:=false"):
 
@@ -78,6 +81,11 @@ class LaunchFiles(unittest.TestCase):
                 return tasks.last and tasks.last.complete
 
             wait_for(complete, "all objects in place", deadline=240.0)
+        stamps = [
+            {t.header.stamp for m in poses.messages for t in m.transforms if t.child_frame_id == stylus}
+            for stylus in ("stylus", "stylus_2")
+        ]
+        self.assertGreater(len(stamps[0] & stamps[1]), 0.9 * min(map(len, stamps)))  # both hands move at one time
         self.assertGreaterEqual(tasks.last.grasps, 4)  # each hand scores: two on the bar, and two on the box
         self.assertLessEqual({("bar", "bar"), ("box", ""), ("box", "box"), ("", "box")}, held)
 
@@ -99,6 +107,14 @@ class LaunchFiles(unittest.TestCase):
         expected = {"calibrate": "none", "massless": True, "error_bound": False}
         expected.update({"input/dead_band/angle": 0.01, "input/dead_band/distance": 1e-3})
         self.assertEqual({key: parameters["/manipulation/" + key] for key in expected}, expected)
+
+    def test_tracker_and_manipulation_name_the_same_frames(self):
+        for source in ("mouse", "fastrak", "operator"):  # one of each way to start a tracker
+            arguments = ["input:=" + source, "stylus_frame:=pen", "workbench_frame:=table"]
+            parameters = self.parameters("workbench.launch", *arguments)
+            for node in ("/manipulation/", "/tracker_driver/"):
+                frames = [parameters[node + key] for key in ("stylus_frame", "workbench_frame")]
+                self.assertEqual(frames, ["pen", "table"], (source, node))
 
     def test_bag_moves_the_object(self):
         folder = tempfile.mkdtemp()
@@ -133,7 +149,8 @@ class LaunchFiles(unittest.TestCase):
         objects, changes = Listener("manipulation/objects", ObjectStates), Listener("manipulation/changes", Change)
         with tempfile.TemporaryDirectory() as folder:
             record = "record:=" + os.path.join(folder, "run")
-            with Launched("workbench.launch", "rviz:=false", "pause:=0", record):
+            frames = ["stylus_frame:=pen", "workbench_frame:=table"]
+            with Launched("workbench.launch", "rviz:=false", "pause:=0", record, *frames):
                 wait_for(self.recorder_is_connected, "the recorder")
                 objects.next(lambda m: any(o.held for o in m.objects), "an object to be held")
                 for _ in range(2):  # the recorder may lose what comes as it is ended

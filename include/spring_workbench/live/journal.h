@@ -36,7 +36,12 @@ struct Entry {
   std::variant<hand_input::Accepted, Change> what;
 };
 
-/// Sorts the entries of a recording by their index. Removes those from before its first input if entries are missing
+/// Divides the entries of a recording, each topic in the order of arrival, among the processes that published them, one
+/// after the other: `manipulation` may have been killed and started again. Each counts from 0, so a new life begins
+/// where the index of a topic goes back.
+std::vector<std::vector<Entry>> lives_of(std::vector<Entry> entries);
+
+/// Sorts the entries of one life by their index. Removes those from before its first input if entries are missing
 /// between them: inputs and changes are published on two topics, and a recorder that starts beside another listener
 /// may be connected to that of the changes first. The state that is noted once it is connected to both follows.
 std::vector<Entry> from_first_complete(std::vector<Entry> entries);

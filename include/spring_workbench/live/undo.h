@@ -15,9 +15,9 @@ Places put_to_rest(simulation::Simulation& simulation, double now);
 /// Undo history: the states before the last 20 edits and resets.
 class Undo {
  public:
-  /// Makes a change like live::perform(), and saves the state before an edit or a reset. Kind::undo restores the last
-  /// saved state at the current time, with all objects at rest, nothing held and no samples; the report's message names
-  /// the change that was undone. Throws InputError if there is nothing to undo.
+  /// Makes a change like live::perform(), and saves the state before an edit or a reset. Kind::undo goes back to
+  /// the last one (Simulation::go_back_to); the report's message names the change that was undone. Throws InputError if
+  /// there is nothing to undo.
   ChangeReport perform(const Command& command, simulation::Simulation& simulation);
   /// Returns true if there is nothing to undo.
   bool empty() const { return before_.empty(); }

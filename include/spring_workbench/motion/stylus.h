@@ -43,6 +43,8 @@ class Stylus {
   }
   void push(const ExternalWrench& sample) { wrench_.push(sample); }
   const PoseTrack& track() const { return track_; }
+  /// Time of the oldest sample still held [s]; infinity if there is none.
+  double first_sample() const { return track_.empty() ? std::numeric_limits<double>::infinity() : track_.begin(); }
   /// Whether its pose at time `now` [s] is known from samples.
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
   /// Returns its motion from `now` to the next sample; a sample that is later than `now` only by rounding is skipped.

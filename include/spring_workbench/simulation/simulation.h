@@ -178,8 +178,6 @@ class Simulation {
   /// added object is read from `roots` as in load_scene(), and again by restore(). Also throws InputError if a held
   /// object is to be moved, or if an added or moved object would overlap another body by more than 0.1 mm.
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {});
-  /// The scene with all edits, with its objects at their current poses.
-  scene::Scene scene_now() const;
   /// Calibrates one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
   /// scene's stiffness. Damping ratios are not changed. Throws InputError if no fork or spring holds an object.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
@@ -202,6 +200,9 @@ class Simulation {
   /// changes nothing, if the state is invalid or has different objects, a different number of styluses, or a different
   /// contact mode or fork shape.
   void restore(const SimulationState& state);
+  /// Goes back to edits, settings, tools and objects of an earlier state; time and the hands' input (samples, buttons,
+  /// clutch) continue, nothing is held, and the objects are at rest. Throws as restore().
+  void go_back_to(const SimulationState& state);
   /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.
   void follow(const Simulation& other);
   std::uint64_t state_hash() const { return save().hash(); }  ///< hash of save()

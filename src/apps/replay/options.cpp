@@ -97,7 +97,7 @@ replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
               /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; further hands
               from CHILD_2 (stylus_2) and stylus_2/joy, CHILD_3, ..., all that the bag has. If it has ~accepted and
-              ~changes of manipulation, that live run is repeated bit by bit, with a line for each committed time
+              ~changes of manipulation, the run since its last start is repeated, with a line for each committed time
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; takes precedence over --settings
   --out       writes RUN.csv and RUN.fork.csv; nothing is written if anything fails

@@ -10,21 +10,26 @@
 namespace spring_workbench::ros_common {
 namespace {
 
-/// Reads nothing of a message.
+/// Ignores messages of a type. roscpp hands a message of its own process to the subscribers of its type first, and to
+/// others later; what all subscribers of a type are given, the first of them reads.
 class Unread : public ros::SubscriptionCallbackHelper {
  public:
+  explicit Unread(const std::type_info& type) : type_(type) {}
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams&) override { return nullptr; }
   void call(ros::SubscriptionCallbackHelperCallParams&) override {}
-  const std::type_info& getTypeInfo() override { return typeid(Unread); }
+  const std::type_info& getTypeInfo() override { return type_; }
   bool isConst() override { return true; }
   bool hasHeader() override { return false; }
+
+ private:
+  const std::type_info& type_;
 };
 
 }  // namespace
 
-/// roscpp hands each message that arrives to the subscribers of its topic, in their order and under one lock. It adds a
-/// callback to a subscriber's callback queue unless the queue of messages was full. So a second subscriber, which is
-/// never full, sees which messages made the first one lose another.
+/// roscpp hands each message that arrives to the subscribers of its topic and type, in their order and under one lock.
+/// It adds a callback to a subscriber's callback queue unless the queue of messages was full. So a second subscriber,
+/// which is never full, sees which messages made the first one lose another.
 class CountedSubscriber::Counter {
  public:
   explicit Counter(ros::CallbackQueueInterface& queue) : counted_(*this, queue), arrivals_(*this) {}
@@ -81,7 +86,7 @@ CountedSubscriber::CountedSubscriber(ros::NodeHandle& node, ros::SubscribeOption
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   options.callback_queue = counter_->counted();
   subscriber_ = node.subscribe(options);
-  options.helper = boost::make_shared<Unread>();
+  options.helper = boost::make_shared<Unread>(options.helper->getTypeInfo());
   options.callback_queue = counter_->arrivals();
   arrivals_ = node.subscribe(options);
   const std::lock_guard<std::mutex> lock(counters().mutex);

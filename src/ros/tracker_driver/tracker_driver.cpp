@@ -146,6 +146,8 @@ class TrackerDriver {
     const double start = ros_common::loop_time() + parameters_.pause;
     ++passes_;
     std::map<std::size_t, double> newest;  // time of the newest sample sent per hand [s]
+    double newest_of_all = -std::numeric_limits<double>::infinity();
+    ros::Time stamp;
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     while (ros::ok()) {
       auto sample = source->next();
@@ -159,7 +161,10 @@ class TrackerDriver {
       wait_until(start + t);
       interval_ = t - last;
       last = t;
-      send(*sample, ros::Time::now() - ros::Duration(ros_common::loop_time() - (start + t)));
+      // The two clocks are read one after the other: hands that move at one time would get two stamps.
+      if (t != std::exchange(newest_of_all, t))
+        stamp = ros::Time::now() - ros::Duration(ros_common::loop_time() - (start + t));
+      send(*sample, stamp);
     }
   }
 

@@ -455,7 +455,9 @@ TEST(Journal, OfALateRecorderBeginsWithTheStateAfterBothConnections) {
       for (const Entry& entry : entries) replayer.play(entry, [](auto&, auto&) {});
       return replayer.simulation()->state_hash();
     };
-    std::rotate(recorded.begin(), recorded.begin() + 5, recorded.end());
+    std::stable_partition(recorded.begin(), recorded.end(),
+                          [](const Entry& entry) { return std::holds_alternative<Change>(entry.what); });
+    EXPECT_EQ(lives_of(recorded).size(), 1u);
     const std::vector<Entry> complete = from_first_complete(recorded);
     EXPECT_EQ(replayed(complete), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
     std::vector<Entry> short_of_one = recorded;
@@ -463,6 +465,33 @@ TEST(Journal, OfALateRecorderBeginsWithTheStateAfterBothConnections) {
       return entry.index == complete[complete.size() - 10].index;
     }));
     EXPECT_THROW(replayed(from_first_complete(short_of_one)), validation::InputError);
+  }
+}
+
+/// A node that is killed and resumes from its checkpoint counts from 0 again. Each of its lives is a run of its own.
+TEST(Journal, OfANodeThatWasKilledHasSeveralLives) {
+  std::vector<Entry> recorded;
+  std::vector<std::uint64_t> hashes;
+  std::optional<simulation::SimulationState> state;
+  for (const int length : {60, 30, 80}) {
+    Bench bench;
+    if (state) bench.runner.resume(two_boxes(), *state);
+    bench.runner.keep_journal(true);
+    for (int k = 0; k < length; ++k) {
+      bench.commit(bench.sample(k, false), interval * k);
+      if (k % 10 == 5) bench.runner.note_state();
+    }
+    bench.runner.note_state();
+    for (Entry& entry : bench.runner.take_journal()) recorded.push_back(std::move(entry));
+    state = bench.runner.locked([](const auto& s) { return s.save(); });
+    hashes.push_back(state->hash());
+  }
+  const std::vector<std::vector<Entry>> lives = lives_of(recorded);
+  ASSERT_EQ(lives.size(), 3u);
+  for (std::size_t i = 0; i < lives.size(); ++i) {
+    Replayer replayer = replayer_of_two_boxes();
+    for (const Entry& entry : from_first_complete(lives[i])) replayer.play(entry, [](auto&, auto&) {});
+    EXPECT_EQ(replayer.simulation()->state_hash(), hashes[i]) << i;
   }
 }
 

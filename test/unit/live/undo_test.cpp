@@ -47,7 +47,9 @@ struct Bench {
       pose.arrival = {t, t};
       events[0].push_back(pose);
       while (runner.cycle(std::exchange(events, {}), {t, t}).more) continue;
+      const std::int64_t shown_until = shown.at.stamp;
       shown = *runner.show(0.0, {t, t}, always);
+      EXPECT_GE(shown.at.stamp, shown_until);
     }
   }
   std::size_t placements() const { return runner.committed(always)->placements.size(); }
@@ -104,6 +106,43 @@ TEST(Undo, TakesAResetBack) {
   bench.continue_with(5);
   EXPECT_EQ(bench.runner.undo().message, "reset");
   EXPECT_EQ(bench.objects()[0].X_WO.matrix(), lifted.matrix());
+}
+
+/// The hand is not part of what is taken back: its samples continue, and so does the clutch with its offset.
+TEST(Undo, KeepsTheHandItsClutchAndItsTime) {
+  Bench bench;
+  Command clutch(Command::Kind::clutch);
+  const auto switch_clutch = [&](bool on) {
+    clutch.on = on;
+    bench.runner.change("clutch", clutch);
+    bench.continue_with(3);
+  };
+  const auto tool = [&] { return bench.runner.locked([](const auto& s) { return s.tool(); }); };
+  bench.continue_with(60);
+  bench.edit(new_mass(2.0));
+  switch_clutch(true);
+  const RigidTransform stays = tool().X_WS;
+  const std::int64_t shown = bench.shown.at.stamp;
+  const double now = bench.time();
+  bench.runner.undo();
+  EXPECT_EQ(bench.time(), now);
+  const std::optional<Shown> at_once = bench.runner.show(0.0, {now, now}, always);
+  EXPECT_TRUE(!at_once || at_once->at.stamp >= shown);
+  EXPECT_TRUE(tool().clutch);
+  bench.continue_with(60);
+  EXPECT_EQ(tool().X_WS.matrix(), stays.matrix());
+  bench.edit(new_mass(2.0));
+  switch_clutch(false);
+  const auto offset = [&] {
+    const double k = 100.0 * bench.time();
+    return tool().X_WS.translation().z() - 0.25 - 0.1 * (1.0 - std::cos(0.02 * M_PI / 3.0 * k));
+  };
+  const double before = offset();
+  ASSERT_GT(std::abs(before), 0.01);
+  bench.runner.undo();
+  EXPECT_NEAR(offset(), before, 1e-9);
+  bench.continue_with(30);
+  EXPECT_NEAR(offset(), before, 1e-4);
 }
 
 TEST(Undo, UndoesTheDocumentedNumberOfEdits) {

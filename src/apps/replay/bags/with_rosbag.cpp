@@ -223,7 +223,13 @@ std::vector<live::Entry> read_journal(const std::string& path) {
       if (const auto accepted = message.instantiate<Accepted>()) entries.push_back(to_entry(*accepted));
       if (const auto change = message.instantiate<Change>()) entries.push_back(to_entry(*change));
     }
-    return live::from_first_complete(std::move(entries));
+    std::vector<std::vector<live::Entry>> lives = live::lives_of(std::move(entries));
+    if (lives.empty()) return std::vector<live::Entry>();
+    if (lives.size() > 1) {
+      std::cerr << "warning: " << path << ": manipulation was started " << lives.size() - 1
+                << " times during the recording: the run after the last start is replayed\n";
+    }
+    return live::from_first_complete(std::move(lives.back()));
   });
 }
 
