@@ -553,6 +553,34 @@ void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
+void contact_map(const Measurements& m, std::vector<Verdict>& out) {
+  for (const std::string& obstacle : map_scenes()) {
+    MapRow worst;
+    int cells = 0, held = 0, slow = 0;
+    for (const MapRow& row : m.contact_map) {
+      if (row.obstacle != obstacle) continue;
+      ++cells;
+      held += row.holds();
+      slow += row.times_real > 1.0;
+      worst.depth = std::max(worst.depth, row.depth);
+      worst.moved = std::max(worst.moved, row.moved);
+      worst.times_real = std::max(worst.times_real, row.times_real);
+      worst.steps_blocked += row.steps_blocked;
+      worst.steps_unsolved += row.steps_unsolved;
+    }
+    if (cells == 0) continue;
+    out.push_back(
+        judged("Map of contact, " + obstacle,
+               "every cell finite, within 0.5 m, ≤ 0.1 mm deep, no step refused, blocked or unsolved, below three "
+               "times real time; 99 % below real time",
+               std::to_string(held) + " of " + std::to_string(cells) + " cells; farthest " + text(worst.moved) +
+                   " m, deepest " + text(1e3 * worst.depth) + " mm, " + std::to_string(worst.steps_blocked) +
+                   " steps blocked, " + std::to_string(worst.steps_unsolved) + " unsolved, up to " +
+                   text(worst.times_real) + "× real time, " + std::to_string(slow) + " cells above it",
+               held == cells && 100 * slow <= cells));
+  }
+}
+
 }  // namespace
 
 std::string name_of(Verdict::Result result) {
@@ -587,6 +615,7 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
   model_errors(measured, out);
   contact(measured, out);
   contact_extremes(measured, out);
+  contact_map(measured, out);
   stability(measured, out);
   const double limit = measured.quick ? 60.0 : 1200.0;
   out.push_back(judged(measured.quick ? "report --quick" : "report", "under " + text(limit / 60.0) + " min",

@@ -6,6 +6,7 @@
 
 #include "benchmark/contact/contact_table.h"
 #include "benchmark/contact/extremes_table.h"
+#include "benchmark/contact/product_map.h"
 #include "benchmark/elastica.h"
 #include "benchmark/error_table.h"
 #include "benchmark/fork_curve.h"
@@ -26,6 +27,7 @@ struct Measurements {
   std::vector<ForkCurveRow> fork_curves;
   ContactTable contact;
   std::vector<ExtremeRow> extremes;  ///< limit cases of contact
+  std::vector<MapRow> contact_map;
   std::vector<UnitTime> unit_times;
   double seconds = 0.0;            ///< duration of the report, from its start to the last picture
   double processor_seconds = 0.0;  ///< of all processes

@@ -8,14 +8,16 @@
 #include <sstream>
 
 #include "benchmark/contact/bodies.h"
+#include "benchmark/contact/trial_run.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double edge = 0.1, before = 0.005;           // m; the gap at the start
 constexpr double phase = 0.1, rest = 0.2, way = 0.02;  // s, s, m
-constexpr double farthest = 0.5;                       // m
-constexpr double max_times_real = 3.0;                 // of processor time
+constexpr double give_up = 12.0;                       // times real time
+constexpr int per_unit = 10;                           // cells
 constexpr std::array<int, 5> values{12, 13, 4, 4, 4};  // stiffness, ratio, step, damping, scene
 constexpr std::array<double, 4> steps{0.05, 0.02, 0.005, 0.001}, dampings{0.0, 0.1, 1.0, 10.0};
 
@@ -39,6 +41,43 @@ scene::Body cube(const std::string& name, double mass, const Vector3d& p) {
 }
 
 scene::Body wall(double x) { return standing("wall", geometry::Box{{0.02, 1.0, 1.0}}, at({x + 0.01, 0.0, 0.5}), 0.5); }
+
+ContactTrial map_trial(const MapCell& cell) {
+  Vector3d p_held(0.0, 0.0, 0.5 * edge), press = way * Vector3d::UnitX(), shift = way * Vector3d::UnitY();
+  std::vector<scene::Body> bodies;
+  const double next_to = edge + before;
+  switch (cell.scene) {
+    case 0:
+      bodies = {wall(0.5 * edge + before)};
+      break;
+    case 1:
+      bodies = {cube("neighbour", 1.0, {next_to, 0.0, 0.5 * edge})};
+      break;
+    case 2:
+      bodies = {cube("neighbour", 1.0, {next_to, 0.0, 0.5 * edge}), wall(next_to + 0.5 * edge)};
+      break;
+    default:
+      for (int i = 0; i < 3; ++i) bodies.push_back(cube("box" + std::to_string(i), 1.0, {0.0, 0.0, (i + 0.5) * edge}));
+      p_held.z() += 3.0 * edge + before;
+      press = -way * Vector3d::UnitZ();
+      shift = 0.25 * way * Vector3d::UnitX();
+  }
+  bodies.insert(bodies.begin(), cube("held", cell.mass_ratio, p_held));
+  ContactTrial trial;
+  trial.scene = scene_with("map", scene::ContactMode::dynamic, std::move(bodies));
+  trial.settings = settings_with(cell.stiffness, 0.01 * cell.stiffness, cell.step, "held");
+  trial.settings.fork.damping_ratio = {cell.damping, cell.damping, cell.damping};
+  const double length = trial.settings.fork.length;
+  trial.X_WH = [=](double t) {
+    return hand_above(p_held + minimum_jerk(t / phase) * press + minimum_jerk(t / phase - 1.0) * shift, length);
+  };
+  trial.rests_from = 2.0 * phase;
+  trial.duration = 2.0 * phase + rest;
+  trial.max_seconds = give_up * trial.duration;
+  return trial;
+}
+
+int cell_count(bool quick) { return quick ? per_unit : 200; }
 
 }  // namespace
 
@@ -71,80 +110,62 @@ std::vector<MapCell> map_cells(int count) {
   return cells;
 }
 
-ContactTrial map_trial(const MapCell& cell) {
-  Vector3d p_held(0.0, 0.0, 0.5 * edge), press = way * Vector3d::UnitX(), shift = way * Vector3d::UnitY();
-  std::vector<scene::Body> bodies;
-  const double next_to = edge + before;
-  switch (cell.scene) {
-    case 0:
-      bodies = {wall(0.5 * edge + before)};
-      break;
-    case 1:
-      bodies = {cube("neighbour", 1.0, {next_to, 0.0, 0.5 * edge})};
-      break;
-    case 2:
-      bodies = {cube("neighbour", 1.0, {next_to, 0.0, 0.5 * edge}), wall(next_to + 0.5 * edge)};
-      break;
-    default:
-      for (int i = 0; i < 3; ++i) bodies.push_back(cube("box" + std::to_string(i), 1.0, {0.0, 0.0, (i + 0.5) * edge}));
-      p_held.z() += 3.0 * edge + before;
-      press = -way * Vector3d::UnitZ();
-      shift = 0.25 * way * Vector3d::UnitX();
+MapRow run(const MapCell& cell) {
+  TrialRun run(map_trial(cell));
+  MapRow row;
+  row.obstacle = map_scenes().at(static_cast<std::size_t>(cell.scene));
+  row.cell = cell;
+  for (bool more = true; more;) {
+    more = run.advance();
+    for (std::size_t k = 0; k < run.start().size(); ++k) {
+      const Vector3d way = run.simulation().objects()[k].X_WO.translation() - run.start()[k].X_WO.translation();
+      row.moved = std::max(row.moved, way.norm());
+    }
   }
-  bodies.insert(bodies.begin(), cube("held", cell.mass_ratio, p_held));
-  ContactTrial trial;
-  trial.trial = "map";
-  std::ostringstream name;
-  name << map_scenes().at(static_cast<std::size_t>(cell.scene)) << "; " << cell.stiffness << " N/m; ratio "
-       << cell.mass_ratio << "; damping " << cell.damping;
-  trial.name = name.str();
-  trial.scene = scene_with("map", scene::ContactMode::dynamic, std::move(bodies));
-  trial.settings = settings_with(cell.stiffness, 0.01 * cell.stiffness, cell.step, "held");
-  trial.settings.fork.damping_ratio = {cell.damping, cell.damping, cell.damping};
-  const double length = trial.settings.fork.length;
-  trial.X_WH = [=](double t) {
-    return hand_above(p_held + minimum_jerk(t / phase) * press + minimum_jerk(t / phase - 1.0) * shift, length);
-  };
-  trial.rests_from = 2.0 * phase;
-  trial.duration = 2.0 * phase + rest;
-  trial.max_seconds = 4.0 * max_times_real * trial.duration;
-  return trial;
+  const Measured m = run.measured();
+  row.finite = m.finite;
+  row.to_the_end = m.to_the_end;
+  row.simulated = m.simulated;
+  row.depth = m.deepest.depth;
+  row.steps_blocked = m.steps_blocked;
+  row.steps_unsolved = m.steps_unsolved;
+  row.steps_rejected = m.steps_rejected;
+  row.times_real = m.cpu_mean / 0.02;
+  return row;
 }
 
-void run_map(int count, int first, const TakeRow& take) {
-  const std::vector<MapCell> cells = map_cells(first + count);
-  std::vector<TrialSum> sums(map_scenes().size());
-  std::vector<std::array<int, 3>> counts(
-      sums.size());  // cells that pass, that are slower than real time, that are not bounded
-  for (std::size_t i = static_cast<std::size_t>(first); i < cells.size(); ++i) {
-    const MapCell& cell = cells[i];
-    TrialRun run(map_trial(cell));
-    double furthest = 0.0;
-    for (bool more = true; more;) {
-      more = run.advance();
-      for (std::size_t k = 0; k < run.start().size(); ++k) {
-        furthest = std::max(
-            furthest, (run.simulation().objects()[k].X_WO.translation() - run.start()[k].X_WO.translation()).norm());
+std::size_t map_unit_count(bool quick) { return static_cast<std::size_t>(cell_count(quick) / per_unit); }
+
+std::vector<MapRow> contact_map(bool quick, Units& units) {
+  units.begin("map of contact");
+  const std::vector<MapCell> cells = map_cells(cell_count(quick));
+  std::vector<MapRow> all;
+  for (std::size_t unit = 0; unit < map_unit_count(quick); ++unit) {
+    const auto rows = units.rows<MapRow>(unit, "map of contact, part " + std::to_string(unit + 1), [&] {
+      std::vector<MapRow> here;
+      try {
+        for (std::size_t i = per_unit * unit; i < per_unit * (unit + 1); ++i) here.push_back(run(cells[i]));
+      } catch (const validation::InputError&) {  // this mode was not built
+        here.clear();
       }
-    }
-    const Measured m = run.measured();
-    const double times_real = m.cpu_mean / 0.02;
-    const TrialRow row =
-        run.row({depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m),
-                 at_most("moved", furthest, farthest, "m"), at_most("times real time", times_real, max_times_real)});
-    const auto scene = static_cast<std::size_t>(cell.scene);
-    take(sums[scene].add(row));
-    counts[scene][0] += row.holds() ? 1 : 0;
-    counts[scene][1] += times_real > 1.0 ? 1 : 0;
-    counts[scene][2] += furthest > farthest ? 1 : 0;
+      return here;
+    });
+    all.insert(all.end(), rows.begin(), rows.end());
   }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (sums[i].count() == 0) continue;
-    const double cells_here = sums[i].count();
-    take(sums[i].row("cells: " + map_scenes()[i],
-                     {at_least("hold", counts[i][0], cells_here), at_most("too far", counts[i][2], 0.0),
-                      at_most("above real time", 100.0 * counts[i][1] / cells_here, 1.0, "%")}));
+  return all;
+}
+
+std::string contact_map_csv(const std::vector<MapRow>& rows) {
+  std::ostringstream out;
+  out << "obstacle,stiffness,mass_ratio,step,damping,finite,simulated,depth_mm,moved,steps_blocked,steps_unsolved,"
+         "steps_refused,times_real_time,held\n";
+  for (const MapRow& row : rows) {
+    out << row.obstacle << ',' << row.cell.stiffness << ',' << row.cell.mass_ratio << ',' << row.cell.step << ','
+        << row.cell.damping << ',' << row.finite << ',' << row.simulated << ',' << 1e3 * row.depth << ',' << row.moved
+        << ',' << row.steps_blocked << ',' << row.steps_unsolved << ',' << row.steps_rejected << ',' << row.times_real
+        << ',' << row.holds() << '\n';
   }
+  return out.str();
 }
 
 }  // namespace spring_workbench::benchmark

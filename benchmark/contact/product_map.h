@@ -1,6 +1,9 @@
 #pragma once
 
-#include "benchmark/contact/trial_run.h"
+#include <string>
+#include <vector>
+
+#include "benchmark/units.h"
 
 namespace spring_workbench::benchmark {
 
@@ -19,10 +22,38 @@ const std::vector<std::string>& map_scenes();
 /// The first `count` cells of a seeded sequence, of which the first 200 contain every pair of values.
 std::vector<MapCell> map_cells(int count);
 
-/// The hand presses the held box by 20 mm, shifts it sideways by 20 mm in the next 0.1 s, and rests for 0.2 s.
-ContactTrial map_trial(const MapCell& cell);
+/// Result of a cell.
+struct MapRow {
+  std::string obstacle;  ///< of `map_scenes()`
+  MapCell cell;
+  bool finite = true;
+  double simulated = 0.0;  ///< less than the whole 0.4 s if the run was given up [s]
+  double depth = 0.0;      ///< largest, of any pair of bodies [m]
+  double moved = 0.0;      ///< farthest way of an object from where it began [m]
+  int steps_blocked = 0, steps_unsolved = 0, steps_rejected = 0;
+  double times_real = 0.0;  ///< processor time over simulated time
+  bool to_the_end = false;
+  bool holds() const {
+    return finite && to_the_end && depth <= 1e-4 && moved <= 0.5 && times_real <= 3.0 &&
+           steps_blocked + steps_unsolved + steps_rejected == 0;
+  }
+};
+template <typename Fields>
+void each_field(MapRow& r, Fields& fields) {
+  MapCell& c = r.cell;
+  fields(r.obstacle, c.stiffness, c.mass_ratio, c.step, c.damping, c.scene, r.finite, r.simulated, r.depth, r.moved,
+         r.steps_blocked, r.steps_unsolved, r.steps_rejected, r.times_real, r.to_the_end);
+}
 
-/// Writes a row for each of the cells first … first + count − 1, and a summary for each scene.
-void run_map(int count, int first, const TakeRow& take);
+/// The hand presses the held box by 20 mm, shifts it sideways by 20 mm in the next 0.1 s, and rests for 0.2 s. A run is
+/// given up after four times the processor time with which it would hold.
+MapRow run(const MapCell& cell);
+
+/// Runs the first 200 cells, or a few of them if `quick`. No rows if the mode was not built.
+std::vector<MapRow> contact_map(bool quick, Units& units);
+/// Number of units of work.
+std::size_t map_unit_count(bool quick);
+
+std::string contact_map_csv(const std::vector<MapRow>& rows);
 
 }  // namespace spring_workbench::benchmark

@@ -14,7 +14,6 @@
 #include "benchmark/contact/marbles.h"
 #include "benchmark/contact/pegs.h"
 #include "benchmark/contact/piles.h"
-#include "benchmark/contact/product_map.h"
 #include "benchmark/contact/rings.h"
 #include "benchmark/contact/same_bits.h"
 #include "benchmark/contact/scale.h"
@@ -167,7 +166,7 @@ const std::map<std::string, void (*)(bool quick, const TakeRow& take)>& trials()
 /// Trials for the seeds first … first + count − 1.
 const std::map<std::string, void (*)(int count, int first, const TakeRow& take)>& seeded_trials() {
   static const std::map<std::string, void (*)(int, int, const TakeRow&)> all{
-      {"rings", run_rings}, {"chain", run_chains}, {"map", run_map}};
+      {"rings", run_rings}, {"chain", run_chains}};
   return all;
 }
 
@@ -223,7 +222,7 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
         where, "arguments", what,
         "wild [N [FIRST_SEED [SCENE [CONTACT [DAMPING]]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED [DAMPING], "
         "drops [N [FIRST_SEED]], throws [N [FIRST_SEED]], scale [MOST], "
-        "pile|stack|cards|marbles|peg|wedge|motion|incline|bits [quick], rings|chain|map [N [FIRST_SEED]], or show "
+        "pile|stack|cards|marbles|peg|wedge|motion|incline|bits [quick], rings|chain [N [FIRST_SEED]], or show "
         "TRIAL MILLISECONDS");
   }
 }

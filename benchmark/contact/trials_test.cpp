@@ -8,7 +8,6 @@
 #include "benchmark/contact/marbles.h"
 #include "benchmark/contact/pegs.h"
 #include "benchmark/contact/piles.h"
-#include "benchmark/contact/product_map.h"
 #include "benchmark/contact/rings.h"
 #include "benchmark/contact/same_bits.h"
 #include "benchmark/contact/wedge.h"
@@ -102,20 +101,6 @@ TEST(ContactTrials, AWedgeIsSqueezedOut) {
   while (run.advance()) continue;
   expect_sound(run);
   EXPECT_LE(run.measured().deepest.depth, 1e-5);
-}
-
-TEST(ContactTrials, TheMapHasEveryPairOfValues) {
-  std::vector<std::set<std::pair<double, double>>> pairs(10);
-  for (const MapCell& c : map_cells(200)) {
-    const std::vector<double> v{c.stiffness, c.mass_ratio, c.step, c.damping, static_cast<double>(c.scene)};
-    std::size_t k = 0;
-    for (std::size_t a = 0; a < v.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) pairs[k++].insert({v[a], v[b]});
-    }
-  }
-  std::vector<std::size_t> met;
-  for (const auto& of : pairs) met.push_back(of.size());
-  EXPECT_EQ(met, (std::vector<std::size_t>{12 * 13, 12 * 4, 13 * 4, 12 * 4, 13 * 4, 16, 12 * 4, 13 * 4, 16, 16}));
 }
 
 void expect_to_hold(const TrialRow& row) {

@@ -9,8 +9,9 @@ Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE HAND    a colum
        plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
        plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
-       plot_report.py stability stability_map.csv PICTURE.png [contact_extremes.csv]
-                                                                    a panel per integrator and contact mode
+       plot_report.py stability stability_map.csv PICTURE.png [contact_extremes.csv contact_map.csv]
+                                                                    a panel per integrator and contact mode, and one
+                                                                    for the map of contact
        plot_report.py contact contact_drag.csv PICTURE.png contact_impact.csv contact_steps.csv"""
 import csv
 import math
@@ -400,7 +401,7 @@ def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
     return image
 
 
-def stability(table, picture, extremes=None):
+def stability(table, picture, extremes=None, contact_map=None):
     """Draws first the cells that pass, then stops and fallbacks, with one panel per integrator; contact is last."""
     rows = read(table)
     shape = rows[0]["shape"]
@@ -450,7 +451,7 @@ def stability(table, picture, extremes=None):
         for axes in panels[-columns:]:
             axes.set_xlabel("stiffness factor, power of ten")
     if modes:
-        contact_panels = panels_of(layers[2], "contact at its extremes", 1)
+        contact_panels = panels_of(layers[2], "contact at its extremes, and a map of it", 1)
         for axes, mode in zip(contact_panels, modes):
             here = [row for row in contact_rows if row["contact"] == mode]
             forks = sorted({float(row["stiffness"]) for row in here})
@@ -462,7 +463,22 @@ def stability(table, picture, extremes=None):
             axes.tick_params(axis="y", labelsize=8)
             axes.set_title(f"{mode}: {total}", fontsize=10)
             axes.set_xlabel("stiffness [N/m], power of ten")
-        finish(layers[2], contact_panels, len(modes), image, "share that holds")
+        if contact_map:
+            axes = contact_panels[len(modes)]
+            here = read(contact_map)
+            forks = sorted({float(row["stiffness"]) for row in here})
+            ratios = sorted({float(row["mass_ratio"]) for row in here})
+            share, total = shares(here, lambda row: float(row["mass_ratio"]), lambda row: float(row["stiffness"]))
+            image = share_panel(
+                axes,
+                [[share.get((r, k), math.nan) for k in forks] for r in ratios],
+                forks,
+                [f"1e{math.log10(r):.0f}" for r in ratios],
+            )
+            axes.set_title(f"map, dynamic: {total}", fontsize=10)
+            axes.set_ylabel("mass ratio")
+            axes.set_xlabel("stiffness [N/m], power of ten")
+        finish(layers[2], contact_panels, len(modes) + bool(contact_map), image, "share that holds")
     figure.savefig(picture, dpi=110)
 
 

@@ -53,7 +53,7 @@ std::size_t units_of(const Plan& plan, const std::vector<const Method*>& methods
   std::size_t counts = 0;
   for (const Method* method : methods) counts += has_stability_counts(*method) ? 2 : 0;
   return unit_count(plan.scenes) + unit_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
-         contact_unit_count(drags, quick) + extreme_unit_count() + 3;
+         contact_unit_count(drags, quick) + extreme_unit_count() + map_unit_count(quick) + 3;
 }
 
 Measurements measure(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
@@ -66,6 +66,7 @@ Measurements measure(const Plan& plan, const std::vector<const Method*>& methods
   if (!quick) measured.stability_counts = stability_table(methods, units);
   measured.map = stability_map(plan.map, units);
   measured.extremes = extremes_table(quick, units);
+  measured.contact_map = contact_map(quick, units);
   units.begin("shapes and steps");
   measured.elastica = units.rows<ElasticaRow>(0, "elastica", [] { return elastica_table(); });
   measured.step_costs = units.rows<StepCost>(1, "parts of a step", [] { return step_costs(); });
@@ -88,6 +89,7 @@ void write_report(Measurements measured, const RunTime& measuring, const RunTime
   tables.elastica = keep("elastica.csv", elastica_csv(measured.elastica));
   tables.map = keep("stability_map.csv", stability_csv(measured.map));
   tables.extremes = keep("contact_extremes.csv", extremes_csv(measured.extremes));
+  tables.contact_map = keep("contact_map.csv", contact_map_csv(measured.contact_map));
   keep("stability_failures.csv", failures_csv(measured.map));
   if (!measured.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));
   keep("step_cost.csv", step_cost_csv(measured.step_costs));

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <set>
 
 #include "benchmark/contact/impact_search.h"
+#include "benchmark/contact/product_map.h"
 #include "benchmark/contact/world_steps.h"
 #include "benchmark/peers.h"
 
@@ -52,6 +55,40 @@ TEST(ImpactSearch, HalvesItsErrorWithEachLevelAndNeverGoesThrough) {
     }
     EXPECT_LT(rows.at({pair, 0}).largest_error, 3e-6) << pair;
   }
+}
+
+TEST(ContactMap, HasEveryPairOfValues) {
+  std::vector<std::set<std::pair<double, double>>> pairs(10);
+  for (const MapCell& c : map_cells(200)) {
+    const std::vector<double> v{c.stiffness, c.mass_ratio, c.step, c.damping, static_cast<double>(c.scene)};
+    std::size_t k = 0;
+    for (std::size_t a = 0; a < v.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) pairs[k++].insert({v[a], v[b]});
+    }
+  }
+  std::vector<std::size_t> met;
+  for (const auto& of : pairs) met.push_back(of.size());
+  EXPECT_EQ(met, (std::vector<std::size_t>{12 * 13, 12 * 4, 13 * 4, 12 * 4, 13 * 4, 16, 12 * 4, 13 * 4, 16, 16}));
+}
+
+TEST(ContactMap, ACellThatMissesOneOfItsBoundsDoesNotHold) {
+  const MapRow row = run({1e3, 1.0, 0.02, 1.0, 0});
+  EXPECT_TRUE(row.holds()) << row.depth << ' ' << row.moved << ' ' << row.steps_blocked;
+  EXPECT_GT(row.moved, 0.005);  // at least across the gap
+  EXPECT_GT(row.times_real, 0.0);
+  const auto with = [&](const std::function<void(MapRow&)>& change) {
+    MapRow changed = row;
+    change(changed);
+    return changed.holds();
+  };
+  EXPECT_FALSE(with([](MapRow& r) { r.finite = false; }));
+  EXPECT_FALSE(with([](MapRow& r) { r.to_the_end = false; }));
+  EXPECT_FALSE(with([](MapRow& r) { r.depth = 1.01e-4; }));
+  EXPECT_FALSE(with([](MapRow& r) { r.moved = 0.51; }));
+  EXPECT_FALSE(with([](MapRow& r) { r.steps_blocked = 1; }));
+  EXPECT_FALSE(with([](MapRow& r) { r.steps_unsolved = 1; }));
+  EXPECT_FALSE(with([](MapRow& r) { r.steps_rejected = 1; }));
+  EXPECT_FALSE(with([](MapRow& r) { r.times_real = 3.1; }));
 }
 
 TEST(WorldSteps, ErrorsFallWithTheStep) {

@@ -486,6 +486,20 @@ TEST(Verdicts, TheRatioOfRunTimesIsAColumnOfTheTable) {
   EXPECT_NE(csv.find(",PASS,,,,,\n"), std::string::npos) << csv;
 }
 
+TEST(Verdicts, OneCellThatFailsIsEnoughForTheMapOfContactNotToHold) {
+  Measurements measured;
+  measured.contact_map.resize(100);
+  for (MapRow& row : measured.contact_map) row.obstacle = "wall", row.to_the_end = true, row.times_real = 0.1;
+  EXPECT_EQ(result_of(measured, "Map of contact, wall"), kPass);
+  measured.contact_map[0].times_real = 2.9;
+  EXPECT_EQ(result_of(measured, "Map of contact, wall"), kPass);
+  measured.contact_map[1].times_real = 1.1;  // 98 of 100 below real time
+  EXPECT_EQ(result_of(measured, "Map of contact, wall"), kFail);
+  measured.contact_map[1].times_real = 0.1;
+  measured.contact_map[1].steps_blocked = 1;
+  EXPECT_EQ(result_of(measured, "Map of contact, wall"), kFail);
+}
+
 TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
   Measurements measured;
   measured.extremes.assign(2, {"stack", "stop", 1e3, 0.02, 0, {}});
