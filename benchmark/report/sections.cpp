@@ -226,8 +226,8 @@ std::vector<PageSection> page_sections(const Measurements& measured, double elas
       "runs [ns].";
   costs.tables.push_back({"", step_cost_csv(measured.step_costs), false});
   const std::vector<std::function<PageSection()>> sections = {
-      [&] { return scenes_section(measured, tables, folder); },
       [&] { return rods_section(measured, tables, folder); },
+      [&] { return scenes_section(measured, tables, folder); },
       [&] { return shapes_section(measured, elastica_difference, tables, folder); },
       [&] { return contact_section(measured.contact, tables, folder); },
       [&] { return stability_section(measured, tables, folder); },

@@ -31,6 +31,7 @@ TEST(Drag, EveryEngineIsGivenTheSameScene) {
   // With small steps and without rocking, all methods agree on the lag, since they have the same springs, weight and
   // friction.
   const Peers peers = all_peers();
+  if (peers.drags.empty()) GTEST_SKIP() << "no engine was found";
   ASSERT_GE(peers.drags.size(), peers.found.size() - 1);  // at least one of each engine; SUNDIALS is none
   for (const DragMethod& method : peers.drags) {
     DragScene scene;

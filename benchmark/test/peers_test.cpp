@@ -62,6 +62,7 @@ TEST(Peers, EachFixedStepPeerConvergesToTheSceneWhoseLawItHasWithItsOrder) {
 TEST(Peers, OtherRotationParametrisationsAgreeWithTheSceneWhereTheSpringIsStiff) {
   // The deflection is a hundredth of a radian, and parametrisations differ by its square. Bullet's constraint damps the
   // velocities of the two centres instead of that of the grip, which is a different law at any stiffness.
+  if (peers().found.size() == 1) GTEST_SKIP() << "no engine was found";
   const Scenario scene = six_dof_scene(100.0);
   const ReferenceSolution reference = reference_solution(scene);
   for (const MethodPtr& method : peers().methods) {
