@@ -152,8 +152,9 @@ class Master(unittest.TestCase):
         print(text % ("without", *without))
         self.assertEqual(without[:2], [round(OUTAGE / PERIOD)] * 2)  # none is lost
         self.assertLessEqual(without[3], with_master[3] + 1)  # nor are 99 % later than before by more than a cycle
-        self.assertEqual(self.ask("service"), ["True"])
-        self.assertEqual(self.ask("diagnostics"), ["True"])
+        for stretch in (600.0, 610.0, 620.0):  # live tuning tells the master of each, on its own
+            self.assertEqual(self.ask("service %s" % stretch), ["True"])
+            self.assertEqual(self.ask("diagnostics"), ["True"])  # new ones
         begin = time.monotonic()
         for node in self.nodes.values():
             node.send_signal(signal.SIGINT)
@@ -271,9 +272,10 @@ def hand():
         if line.strip() == "run":
             count, lags = feeder.run(OUTAGE)
             print_quantiles(count, len(lags), of=lags, form="%d")
-        elif line.strip() == "service":
-            print(service(stretch=600.0).success, flush=True)
+        elif line.startswith("service"):
+            print(service(stretch=float(line.split()[1])).success, flush=True)
         else:
+            del diagnostics.messages[:]
             key = "time since the master's last reply [s]"
             said = wait_for(
                 lambda: float(diagnostic_values(diagnostics.messages, "physics loop").get(key, 0.0)) > 3.0,

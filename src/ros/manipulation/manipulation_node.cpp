@@ -44,7 +44,7 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& 
       outbox_(publisher_, runner_),
       scene_publisher_(private_node, parameters_.world_frame),
       services_(services::advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
-      live_tuning_(services::make_live_tuning(private_node, runner_)),
+      live_tuning_(services::make_live_tuning(tuning_thread_.handle(private_node), runner_)),
       checkpoint_(master_thread_.handle(private_node), disk_thread_.handle(private_node), parameters_.checkpoint_file,
                   runner_, parameters_.scene, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
@@ -73,7 +73,8 @@ ManipulationNode::~ManipulationNode() {
   alarm_.ring();
   physics_.join();
   // Their callbacks use members that are destroyed next.
-  for (ros_common::CallbackThread* thread : {&input_thread_, &master_thread_, &disk_thread_}) thread->stop();
+  for (ros_common::CallbackThread* thread : {&input_thread_, &master_thread_, &disk_thread_, &tuning_thread_})
+    thread->stop();
 }
 
 void ManipulationNode::run_physics() {

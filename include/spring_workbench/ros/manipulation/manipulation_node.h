@@ -52,6 +52,7 @@ class ManipulationNode {
   live::SimulationRunner runner_;
   ros_common::Alarm alarm_;
   ros_common::CallbackThread input_thread_{"input"}, master_thread_{"master"}, disk_thread_{"disk"};
+  ros_common::CallbackThread tuning_thread_{"tuning"};  ///< it tells each change to the master, and waits for it
   std::deque<StylusInput> inputs_;
   machine_link::WrenchInput wrenches_;
   StatePublisher publisher_;
