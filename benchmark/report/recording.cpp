@@ -15,6 +15,7 @@
 #include "benchmark/report/run_facts.h"
 #include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
@@ -29,6 +30,35 @@ std::string shell_word(const std::string& word) {
   return text + '\'';
 }
 
+/// Throws what `replay` printed last as our own message; `status`: its exit status.
+[[noreturn]] void throw_last_line(std::string output, int status) {
+  while (!output.empty() && output.back() == '\n') output.pop_back();
+  std::string line = output.substr(output.rfind('\n') + 1);
+  const std::string name = "replay: ";
+  if (line.rfind(name, 0) == 0) line.erase(0, name.size());
+  if (status == 2) throw validation::InputError(line);
+  throw std::runtime_error("replay: " + line);
+}
+
+/// Folders that are made, and removed again if they are empty when it ends.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::filesystem::path& path) {
+    for (std::filesystem::path p = path; !p.empty() && !std::filesystem::exists(p); p = p.parent_path())
+      made_.push_back(p);
+    make_folder(path);
+  }
+  ~OutputFolder() {
+    std::error_code not_empty;
+    for (const std::filesystem::path& path : made_) std::filesystem::remove(path, not_empty);
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< the innermost first
+};
+
 /// Output files and text of one run of replay.
 struct Replayed {
   std::vector<ReplayedPose> poses;
@@ -41,7 +71,7 @@ class Replay {
     const std::filesystem::path beside = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "replay";
     command_ = shell_word(beside) + " --scene " + shell_word(options.scene);
     for (const std::string& motion : options.motions) command_ += " --motion " + shell_word(motion);
-    if (!options.bag.empty()) command_ += " --bag " + shell_word(options.bag);
+    if (!options.bag.empty()) command_ += " --hand-only --bag " + shell_word(options.bag);
     if (!options.settings.empty()) command_ += " --settings " + shell_word(options.settings);
     command_ += " --out " + shell_word(csv_);
   }
@@ -54,7 +84,8 @@ class Replay {
     std::string output;
     for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
     const int status = pclose(pipe);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(output);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+      throw_last_line(output, WIFEXITED(status) ? WEXITSTATUS(status) : 1);
     Replayed replayed{read_replayed(csv_), output};
     std::filesystem::remove(csv_);
     std::filesystem::remove(std::filesystem::path(csv_).replace_extension(".fork.csv"));
@@ -107,8 +138,10 @@ double number_in_json(const std::string& json, const std::string& key) {
 
 RecordingTable measure_recording(const ReportOptions& options, std::ostream& log) {
   const Replay replay(options);
+  const std::string warning = load_warning();
+  const Replayed reference = replay.run(kReference, kReferenceStep);  // before any other line: it may be refused
+  if (!warning.empty()) log << "report: " << warning << '\n';
   log << "reference: " << kReference << ", step " << kReferenceStep << " s\n";
-  const Replayed reference = replay.run(kReference, kReferenceStep);
   RecordingTable table;
   table.uncertainty = largest_distance(replay.run(kReference, 2.0 * kReferenceStep).poses, reference.poses).position;
   const std::vector<double> steps =
@@ -141,9 +174,7 @@ std::string recording_csv(const RecordingTable& table) {
 }
 
 void report_recording(const ReportOptions& options, const std::string& command, std::ostream& out, std::ostream& log) {
-  make_folder(options.out);
-  const std::string warning = load_warning();
-  if (!warning.empty()) log << "report: " << warning << '\n';
+  const OutputFolder folder(options.out);
   const RecordingTable table = measure_recording(options, log);
   const std::string path = std::filesystem::path(options.out) / "recording.csv", csv = recording_csv(table);
   std::ofstream file(path);

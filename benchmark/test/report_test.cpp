@@ -194,10 +194,22 @@ TEST(Report, ARecordingHasALineForEachIntegratorAndStepWhoseErrorFallsWithIt) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Report, ARecordingThatReplayRefusesIsReportedWithItsMessage) {
-  const Outcome outcome = report("--scene /nowhere.urdf --motion /nowhere.tum --out .");
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.output.find("/nowhere.tum: expected a readable motion file"), std::string::npos) << outcome.output;
+TEST(Report, ARecordingThatReplayRefusesIsRefusedInOneLineAndLeavesNothing) {
+  const test_support::TemporaryFolder folder;
+  const std::string out = folder.path("a/b");
+  const std::string motion = test_support::checkout("config/mini_world_demo.yaml");
+  const std::pair<std::string, std::string> cases[] = {
+      {"--scene /nowhere.urdf --motion /nowhere.tum", "/nowhere.tum: expected a readable motion file"},
+      {"--scene /nowhere.urdf --motion '" + motion + "'",
+       "scene: invalid value '/nowhere.urdf': expected an existing file"},
+      {"--scene /nowhere.urdf --motion '" + motion + "' --settings /nowhere.yaml",
+       "/nowhere.yaml: expected a readable YAML file"}};
+  for (const auto& [arguments, message] : cases) {
+    const Outcome outcome = report(arguments + " --out '" + out + "'");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.output, "report: " + message + "\n");
+    EXPECT_FALSE(std::filesystem::exists(folder.path("a")));
+  }
 }
 
 }  // namespace

@@ -80,9 +80,9 @@ GateResult Feed::push_stylus(const RawSample& sample, const RigidTransform& X_WP
   return result;
 }
 
-GateResult Feed::push_stylus(const motion::PoseSample& sample, std::size_t hand) {
-  const GateResult result =
-      hands_.at(hand).gate.offer({sample.t, sample.X.translation(), Quaterniond(sample.X.linear())});
+GateResult Feed::push_stylus(const motion::PoseSample& sample, std::size_t hand, double quaternion_norm) {
+  const Quaterniond q(quaternion_norm * Quaterniond(sample.X.linear()).coeffs());
+  const GateResult result = hands_.at(hand).gate.offer({sample.t, sample.X.translation(), q});
   if (usable(result)) follow(sample, result, nullptr, {}, hand);
   return result;
 }

@@ -93,6 +93,12 @@ GateResult check_pose(const RawSample& sample, const InputSettings& settings) {
 SampleGate::SampleGate(const InputSettings& settings, double dropout_after)
     : settings_(settings), dropout_after_(dropout_after) {}
 
+std::string complaint_about_gaps(const GateCounts& counts, double dropout_after) {
+  if (counts.dropouts < 2 || 2 * counts.dropouts < counts.accepted) return "";
+  return "samples come " + text(counts.newest_dropout) + " s apart, more than dropout_after = " + text(dropout_after) +
+         " s: each counts as the return of a lost hand, which does not move; increase dropout_after";
+}
+
 void SampleGate::restart() {
   newest_.reset();
   candidate_.reset();
@@ -154,6 +160,7 @@ GateResult SampleGate::accept(const RawSample& sample, bool jumped) {
     interval_ = interval_ > 0.0 ? interval_ + new_interval_weight * (dt - interval_) : dt;
   }
   counts_.dropouts += after_dropout ? 1 : 0;
+  if (after_dropout) counts_.newest_dropout = sample.t - newest_->t;
   counts_.relocations += jumped ? 1 : 0;
   counts_.sign_flips += newest_ && newest_->q.dot(sample.q) < 0.0 ? 1 : 0;
   ++counts_.accepted;

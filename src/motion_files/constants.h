@@ -7,6 +7,9 @@ namespace spring_workbench::motion_files {
 /// Largest time of a waypoint [s]. If larger, rounding exceeds the sample interval. Test:
 /// ScriptedSource.BadScriptsNameFileLineFieldAndRule.
 constexpr double farthest_script_time = 1e6;
+/// Largest number of samples of a script. If larger, times in another unit use up all memory. Test:
+/// ScriptedSource.BadScriptsNameFileLineFieldAndRule.
+constexpr double most_samples = 1e7;
 /// Resolution of ROS time [s]. If larger, a sample before the last waypoint is dropped. Test:
 /// ScriptedSource.BadScriptsNameFileLineFieldAndRule.
 constexpr double closest_samples = 1e-9;

@@ -56,6 +56,7 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
   const Quaterniond q(number(7, 2.0), number(4, 2.0), number(5, 2.0), number(6, 2.0));
   validation::check_number(where, "norm of qx qy qz qw", q.norm(), validation::between(0.5, 2.0));
   line.sample.X = make_transform(q, p);
+  line.sample.quaternion_norm = q.norm();
   if (words.size() == kFieldsWithButton) {
     if (words[8] != "0" && words[8] != "1") validation::refuse(where, "button", words[8].substr(0, 40), "0 or 1");
     line.sample.button = words[8] == "1";
@@ -73,6 +74,7 @@ std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
   long double first_stamp = 0.0L;
   std::string text;
   for (long number = 1; std::getline(file, text); ++number) {
+    if (number == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // a byte order mark
     const std::vector<std::string> words = words_of(text);
     if (words.empty()) continue;
     const std::string where = path + ":" + std::to_string(number);

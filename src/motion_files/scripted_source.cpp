@@ -1,6 +1,7 @@
 #include "spring_workbench/motion_files/scripted_source.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
@@ -38,6 +39,12 @@ ScriptedSource::ScriptedSource(const std::string& path) {
     if (i > 0 && !(waypoint.t - waypoints_.back().t > closest_samples)) {
       validation::refuse(config::place(list[i], path), name + ".t", list[i]["t"].Scalar(),
                          "a time later than that of the waypoint before");
+    }
+    if (waypoint.t * rate_ > most_samples) {
+      std::ostringstream rule;
+      rule << "at most " << most_samples / rate_ << " s after the first, which at rate = " << rate_ << " Hz are "
+           << most_samples << " samples";
+      validation::refuse(config::place(list[i], path), name + ".t", list[i]["t"].Scalar(), rule.str());
     }
     waypoints_.push_back(waypoint);
   }

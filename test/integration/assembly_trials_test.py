@@ -145,6 +145,8 @@ class AssemblyTrials(unittest.TestCase):
             (["--scene", SOURCE + "/scenes/single_box.urdf"], "targets"),
             (["--scene", "/nowhere.urdf"], "/nowhere.urdf"),
             (["--scene", SCENE, "more"], "more"),
+            (["--scene", SCENE, "--out", "x", "--table", "x"], "--out, --table: cannot be given the same file"),
+            (["--scene", SCENE, "--table", "x", "--record", "./x"], "--table, --record: cannot be given the same file"),
         ]:
             done = run(*arguments)
             self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)

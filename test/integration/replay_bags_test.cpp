@@ -4,13 +4,18 @@
 #include <sensor_msgs/Joy.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "integration/replay_fixture.h"
+#include "spring_workbench/Change.h"
+#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench {
 namespace {
@@ -156,6 +161,98 @@ TEST_F(Replay, CompressedBagsAndTheOldTfMessageGiveTheSameBytes) {
     ASSERT_EQ(run("--scene box.urdf --bag " + name + ".bag --out b.csv").status, 0);
     expect_same_bytes("a.csv", "b.csv");
   }
+}
+
+tf2_msgs::TFMessage link(const std::string& parent, const std::string& child, double x) {
+  tf2_msgs::TFMessage tf;
+  tf.transforms.emplace_back();
+  tf.transforms[0].header.frame_id = parent;
+  tf.transforms[0].child_frame_id = child;
+  tf.transforms[0].transform.translation.x = x;
+  tf.transforms[0].transform.rotation.w = 1.0;
+  return tf;
+}
+
+/// As in the node: the workbench stands in the world, and the tracker on the workbench.
+TEST_F(Replay, StaticTransformsPlaceTheHandInTheWorld) {
+  const auto static_frames = [&](const std::string& bag_path) {  // after the first poses, as a recorder may get them
+    rosbag::Bag bag(bag_path, rosbag::bagmode::Append);
+    bag.write("/tf_static", ros::Time(1500000001), link("world", "workbench", 0.25));
+    bag.write("/tf_static", ros::Time(1500000001), link("/workbench", "/tracker", -0.125));
+  };
+  write_bag(path("plain.bag"), lifting_hand());
+  write_bag(path("hand.bag"), lifting_hand());
+  static_frames(path("hand.bag"));
+  write_bag(path("tracker.bag"), lifting_hand(), {"tracker", "stylus"});
+  static_frames(path("tracker.bag"));
+  ASSERT_EQ(run("--scene box.urdf --bag plain.bag --out plain.csv").status, 0);
+  ASSERT_EQ(run("--scene box.urdf --bag hand.bag --out hand.csv").status, 0);
+  ASSERT_EQ(run("--scene box.urdf --bag tracker.bag --out tracker.csv").status, 0);
+  const auto plain = table("plain.fork.csv"), hand = table("hand.fork.csv"), tracker = table("tracker.fork.csv");
+  const auto x = static_cast<std::size_t>(std::find(plain[0].begin(), plain[0].end(), "handle_x") - plain[0].begin());
+  ASSERT_EQ(plain.size(), hand.size());
+  ASSERT_EQ(plain.size(), tracker.size());
+  for (std::size_t row = 1; row < plain.size(); ++row) {
+    EXPECT_NEAR(std::stod(hand[row][x]) - std::stod(plain[row][x]), 0.25, 1e-9);
+    EXPECT_NEAR(std::stod(tracker[row][x]) - std::stod(plain[row][x]), 0.125, 1e-9);
+  }
+}
+
+/// The journal of a live run in which nothing happened, with the hand that the node did not see.
+void add_journal(const std::string& bag_path, const std::string& scene) {
+  simulation::Simulation simulation(scene::load_scene(scene), {});
+  const RigidTransform above = make_transform(Quaterniond(0, 1, 0, 0), Vector3d(0.0, 0.0, 0.24));
+  for (const double t : {0.0, 0.1}) simulation.push_stylus({t, above});
+  simulation.advance(0.1);
+  rosbag::Bag bag(bag_path, rosbag::bagmode::Append);
+  const auto write = [&](std::uint64_t index, const std::string& state) {
+    Change change;
+    change.index = index;
+    change.committed = simulation.time();
+    change.what = "test";
+    change.scene = scene;
+    change.hash_before = simulation::to_hex(simulation.state_hash());
+    change.state = state;
+    bag.write("/manipulation/changes", ros::Time(1500000001), change);
+  };
+  write(0, simulation::serialise(simulation.save()));
+  write(1, "");
+}
+
+TEST_F(Replay, AJournalIsRepeatedAsRecordedAndItsHandAloneAsSet) {
+  write_bag(path("hand.bag"), lifting_hand());
+  write_bag(path("live.bag"), lifting_hand());
+  add_journal(path("live.bag"), path("box.urdf"));
+  const Outcome repeated = run("--scene box.urdf --bag live.bag --set gravity=9.81 --out a.csv");
+  ASSERT_EQ(repeated.status, 0) << repeated.err;
+  EXPECT_EQ(summary_of(repeated)["samples"].as<int>(), 0);
+  folder_.write("fork.yaml", "contact: none\nfork:\n  stiffness: {bend: 300}\n");
+  const std::pair<std::string, std::string> options[] = {
+      {"--set integrator=rk4",
+       "command line: integrator: cannot be given for live.bag, whose ~accepted and ~changes are "
+       "repeated as recorded; add --hand-only"},
+      {"--set rate=10", "command line: rate: cannot be given for live.bag"},
+      {"--set input.max_speed=1", "command line: input.max_speed: cannot be given for live.bag"},
+      {"--settings fork.yaml", "fork.yaml:3: fork.stiffness.bend: cannot be given for live.bag"},
+      {"--parent workbench", "command line: --parent: cannot be given for live.bag"},
+      {"--child stylus", "command line: --child: cannot be given for live.bag"}};
+  for (const auto& [option, message] : options) {
+    expect_refused("--scene box.urdf --bag live.bag --out run.csv " + option, {message});
+    ASSERT_EQ(run("--scene box.urdf --bag live.bag --hand-only --out b.csv " + option).status, 0) << option;
+    ASSERT_EQ(run("--scene box.urdf --bag hand.bag --out c.csv " + option).status, 0) << option;
+    expect_same_bytes("b.csv", "c.csv");
+    expect_same_bytes("b.fork.csv", "c.fork.csv");
+  }
+  expect_refused("--scene box.urdf --motion hand.tum --hand-only --out run.csv",
+                 {"command line: --hand-only: can only be given together with --bag"});
+}
+
+TEST_F(Replay, QuaternionsInABagAreHeldToTheirTolerance) {
+  auto samples = lifting_hand();
+  for (Sample& s : samples) s.qx *= 0.8, s.qy *= 0.8;
+  write_bag(path("hand.bag"), samples);
+  const Outcome outcome = run("--scene box.urdf --bag hand.bag --out run.csv");
+  EXPECT_EQ(summary_of(outcome)["rejected"]["not a unit quaternion"].as<int>(), 101);
 }
 
 /// Third-party bags: lz4, the old tf/tfMessage.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "integration/replay_fixture.h"
@@ -49,6 +50,43 @@ TEST_F(Replay, WritesALinePerOutputTimeAndObject) {
     EXPECT_TRUE(std::isfinite(summary[key].as<double>())) << key;
   }
   EXPECT_TRUE(summary["active"].IsSequence() && summary["skipped"].IsSequence());
+}
+
+TEST_F(Replay, QuaternionsInAMotionFileAreHeldToTheirTolerance) {
+  auto samples = lifting_hand();
+  samples[50].qx *= 0.95, samples[50].qy *= 0.95;
+  folder_.write("hand.tum", motion_text(samples));
+  const std::pair<const char*, int> rejected[] = {{"0.1", 0}, {"0.01", 1}};
+  for (const auto& [tolerance, count] : rejected) {
+    const Outcome outcome =
+        run("--scene box.urdf --motion hand.tum --set input.quaternion_tolerance=" + std::string(tolerance) +
+            " --out run.csv");
+    EXPECT_EQ(summary_of(outcome)["samples_rejected"].as<int>(), count) << outcome.err;
+  }
+}
+
+TEST_F(Replay, AHandWithSlowSamplesIsToldWhyItDoesNotMove) {
+  auto samples = lifting_hand();
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].milliseconds = 600 * static_cast<long>(i);
+  folder_.write("hand.tum", motion_text(samples));
+  const Outcome slow = run("--scene box.urdf --motion hand.tum --out run.csv");
+  EXPECT_EQ(slow.status, 0);
+  EXPECT_EQ(slow.err,
+            "warning: hand 1: samples come 0.6 s apart, more than dropout_after = 0.5 s: each counts as the return of "
+            "a lost hand, which does not move; increase dropout_after\n");
+  const Outcome moves = run("--scene box.urdf --motion hand.tum --set dropout_after=1 --out run.csv");
+  EXPECT_EQ(moves.err, "");
+  EXPECT_EQ(summary_of(moves)["dropouts"].as<int>(), 0);
+}
+
+TEST_F(Replay, StampsInAnotherUnitAreRefused) {
+  auto samples = lifting_hand();
+  for (Sample& s : samples) s.milliseconds *= 1000000;  // nanoseconds, taken for seconds
+  folder_.write("hand.tum", motion_text(samples));
+  expect_refused(
+      "--scene box.urdf --motion hand.tum --out run.csv",
+      {"hand.tum: time of the last sample: invalid value '2e+06': expected at most 200000 s after the first, "
+       "which at rate = 50 Hz are 1e+07 output times"});
 }
 
 TEST_F(Replay, TheButtonTakesLiftsAndPutsDown) {

@@ -5,9 +5,9 @@
 
 namespace spring_workbench::config {
 
-/// A file that is written atomically, even if the program or the machine crashes meanwhile: it is written next to its
-/// path (as `PATH.part<process>`), flushed to disk, and renamed by commit(). Anything but a regular file (a pipe,
-/// /dev/null) is written in place.
+/// A file that is written atomically, even if the program is killed or the machine crashes meanwhile: it has no name
+/// (or `PATH.part<process>` on a file system that cannot do without) until commit() flushes it to disk and gives it its
+/// own. Anything but a regular file (a pipe, /dev/null) is written in place.
 class OutputFile {
  public:
   /// Throws InputError if the file cannot be created.
@@ -29,6 +29,7 @@ class OutputFile {
 
   std::string path_, written_path_;
   bool in_place_ = false, committed_ = false;
+  bool nameless_ = false;  ///< has no name yet
   std::FILE* file_ = nullptr;
 };
 

@@ -60,8 +60,9 @@ class Feed {
   /// Reports the arrival of a sample that is not used, so that the hand does not count as silent.
   void report_arrival(const LocalTime& arrival, std::size_t hand);
   /// Adds a pose of the stylus in the world, from a motion that needs no clock. The pose is passed on
-  /// bit-identically if smoothing and dead band are off and the hand was not lost.
-  GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
+  /// bit-identically if smoothing and dead band are off and the hand was not lost. `quaternion_norm`: length of the
+  /// quaternion as it was received.
+  GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0, double quaternion_norm = 1.0);
   /// Adds an edge of a button at time `t` [s]; see Simulation.
   void push_edge(double t, motion::ButtonEdge press, std::size_t hand = 0);
   void push_button(double t, bool pressed, std::size_t hand = 0) {

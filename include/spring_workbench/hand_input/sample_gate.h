@@ -45,9 +45,14 @@ struct GateCounts {
   std::size_t accepted = 0;
   std::size_t relocations = 0;  ///< jumps that were accepted
   std::size_t dropouts = 0;     ///< gaps between accepted samples longer than `dropout_after`
+  double newest_dropout = 0.0;  ///< length of the newest of them [s]
   std::size_t sign_flips = 0;   ///< neighbours whose quaternions have opposite signs; harmless
   std::map<GateResult, std::size_t> rejected;
 };
+
+/// Returns a complaint about a hand that does not move because most of its samples come farther apart than
+/// `dropout_after` [s]; otherwise nothing.
+std::string complaint_about_gaps(const GateCounts& counts, double dropout_after);
 
 /// Outlier gate for the samples of one station: accepts only motions that a hand can make. A sample that is too far
 /// from the last accepted one for the time between them is rejected; once `accept_after` consecutive samples agree with

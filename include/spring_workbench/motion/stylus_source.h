@@ -12,8 +12,9 @@ namespace spring_workbench::motion {
 /// A sample of a tracked stylus: `t` [s] since the source's first sample, the pose X of the stylus in the tracker's
 /// base frame, whether the grasp button is down, and which stylus it is.
 struct StylusSample : PoseSample {
-  bool button = false;   ///< whether the grasp button is down
-  std::size_t hand = 0;  ///< number of the stylus, from 0
+  bool button = false;           ///< whether the grasp button is down
+  std::size_t hand = 0;          ///< number of the stylus, from 0
+  double quaternion_norm = 1.0;  ///< length of the quaternion from which X was made, for input.quaternion_tolerance
 };
 
 /// A button edge of a stylus.

@@ -9,9 +9,9 @@
 namespace spring_workbench::motion_files {
 
 /// Reads lines of `t x y z qx qy qz qw [button]` (s, m, unit quaternion, 0 or 1), the format of the TUM benchmarks; `#`
-/// starts a comment, empty lines are skipped, and either all lines or none have a button. Times are rounded to ns.
-/// Quaternions with a norm in [0.5, 2] are normalised. Throws InputError with file:line, field, value and rule for
-/// anything else.
+/// starts a comment, empty lines are skipped, a byte order mark is ignored, and either all lines or none have a button.
+/// Times are rounded to ns. Quaternions with a norm in [0.5, 2] are normalised, and their norm is kept. Throws
+/// InputError with file:line, field, value and rule for anything else.
 std::vector<motion::StylusSample> read_motion_file(const std::string& path);
 
 /// Returns the given samples one by one.

@@ -1,11 +1,38 @@
 #include "options.h"
 
+#include <filesystem>
+#include <utility>
+
 #include "spring_workbench/assembly/task_score.h"
 #include "spring_workbench/config/command_line.h"
 #include "tools.h"
 
 namespace spring_workbench::assembly_trials {
 using config::command_line;
+namespace {
+
+/// Whether two paths name one file; /dev/null and pipes may be given twice.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto whole = [](const auto& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  return whole(a) == whole(b) && (!std::filesystem::exists(a) || std::filesystem::is_regular_file(a));
+}
+
+/// Refuses two outputs with one path, of which only the second would remain.
+void check_files(const Options& options) {
+  const std::pair<const char*, std::string> files[] = {
+      {"--out", options.out}, {"--table", options.table}, {"--record", options.record}};
+  for (const auto& a : files) {
+    for (const auto& b : files) {
+      if (&a == &b || a.second.empty() || b.second.empty() || !is_same_file(a.second, b.second)) continue;
+      throw validation::InputError(std::string(command_line) + ": " + a.first + ", " + b.first +
+                                   ": cannot be given the same file");
+    }
+  }
+}
+
+}  // namespace
 
 std::optional<Options> parse_options(int argc, char** argv) {
   Options options;
@@ -34,6 +61,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
     return std::nullopt;
   }
   if (options.scene.empty()) validation::refuse_missing(command_line, "--scene", "path of a URDF scene with targets");
+  check_files(options);
   return options;
 }
 

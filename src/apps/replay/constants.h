@@ -7,6 +7,9 @@ namespace spring_workbench::replay {
 /// Time by which an output time may exceed the end of the motion [s]. If smaller, rounding drops the last row. Test:
 /// Replay.WritesALinePerOutputTimeAndObject.
 constexpr double time_tolerance = 1e-9;
+/// Largest number of output times of recorded hands. If larger, stamps in milliseconds fill the disk before an error is
+/// noticed. Test: Replay.StampsInAnotherUnitAreRefused.
+constexpr double most_outputs = 1e7;
 /// Largest coordinate that a PoseTrack accepts [m]. Test: limits_test.py::test_bags.
 constexpr double farthest_position = 1e9;
 

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <iostream>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "constants.h"
@@ -71,7 +72,9 @@ scene::Scene load_scene(const std::string& path) {
 }
 
 void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
-  for (const motion::PoseSample& sample : of_hand.samples) feed.push_stylus(sample, hand);
+  for (const motion::StylusSample& sample : of_hand.samples) {
+    feed.push_stylus(sample, hand, sample.quaternion_norm);
+  }
   for (const ButtonEvent& event : of_hand.next_tool) {
     if (event.pressed) feed.push_edge(event.t, motion::ButtonEdge::next_tool, hand);
   }
@@ -119,12 +122,32 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   return summary;
 }
 
+/// Refuses a run to `end` [s] with more output times than a user can want, e.g. where times are in another unit.
+void check_length(const Options& options, const std::map<std::size_t, Motion>& motions, double end) {
+  const double longest = most_outputs / options.rate;
+  if (end <= longest) return;
+  std::string file = options.bag;
+  for (const auto& [hand, motion] : motions) {
+    const bool is_long = std::any_of(motion.samples.begin(), motion.samples.end(),
+                                     [&](const motion::StylusSample& sample) { return sample.t > longest; });
+    if (is_long && file.empty()) file = options.motions[hand];
+  }
+  std::ostringstream rule, last;
+  last << end;
+  rule << "at most " << longest << " s after the first, which at rate = " << options.rate << " Hz are " << most_outputs
+       << " output times";
+  validation::refuse(file, "time of the last sample", last.str(), rule.str());
+}
+
 /// Loads the scene, runs the simulation with the recorded hands and writes both files; if it throws, it leaves no
 /// files.
 Summary run(const Options& options) {
-  if (!options.bag.empty()) {
+  if (!options.bag.empty() && !options.hand_only) {
     const std::vector<live::Entry> journal = read_journal(options.bag);
-    if (!journal.empty()) return run_journal(options, journal);
+    if (!journal.empty()) {
+      check_beside_journal(options);
+      return run_journal(options, journal);
+    }
   }
   const std::map<std::size_t, Motion> motions = load_motions(options);
   simulation::SimulationSettings settings = options.settings;
@@ -143,6 +166,7 @@ Summary run(const Options& options) {
     summary.samples += motion.samples.size();
   }
   const double end = simulation.newest_sample() + time_tolerance;
+  check_length(options, motions, end);
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
     summary.advance.add(feed.advance_to(t));
@@ -154,6 +178,8 @@ Summary run(const Options& options) {
   for (const auto& [hand, motion] : motions) {
     summary.add(feed.gate_counts(hand));
     summary.add(feed.reacquisition_counts(hand));
+    const std::string complaint = complaint_about_gaps(feed.gate_counts(hand), settings.dropout_after);
+    if (!complaint.empty()) std::cerr << "warning: hand " << hand + 1 << ": " << complaint << "\n";
   }
   summary.state_hash = simulation.state_hash();
   fork.commit();

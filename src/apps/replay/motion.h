@@ -16,10 +16,10 @@ struct ButtonEvent {
 
 /// A recorded hand. Times are in s from the first sample; stamps are as recorded, including repeated and backward ones.
 struct Motion {
-  std::vector<motion::PoseSample> samples;  ///< never empty
-  std::vector<ButtonEvent> buttons;         ///< changes of the grasp button, which is up at the start
-  std::vector<ButtonEvent> next_tool;       ///< the same for the button for the next tool
-  std::vector<ButtonEvent> clutch;          ///< the same for the clutch
+  std::vector<motion::StylusSample> samples;  ///< never empty
+  std::vector<ButtonEvent> buttons;           ///< changes of the grasp button, which is up at the start
+  std::vector<ButtonEvent> next_tool;         ///< the same for the button for the next tool
+  std::vector<ButtonEvent> clutch;            ///< the same for the clutch
 };
 
 /// Appends the state of a button from time `t` [s] on, if it is a change; the time is at least that of the last change.
@@ -28,9 +28,9 @@ void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 /// Reads the source to its end.
 Motion read_motion(motion::StylusSource& source);
 
-/// The hands of a bag, by number from 0: the transforms `parent` → `child` with buttons 0, 1 and `clutch_button` of
-/// stylus/joy, then `child`_2 with stylus_2/joy, and so on. Times are from the first sample of all hands. Throws
-/// InputError.
+/// The hands of a bag, by number from 0: the transforms `parent` → `child`, in the world as /tf_static says, with
+/// buttons 0, 1 and `clutch_button` of stylus/joy, then `child`_2 with stylus_2/joy, and so on. Times are from the
+/// first sample of all hands. Throws InputError.
 std::map<std::size_t, Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
                                        int clutch_button);
 

@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include <regex>
 #include <sstream>
 
 #include "spring_workbench/config/command_line.h"
@@ -8,6 +9,18 @@
 namespace spring_workbench::replay {
 using config::command_line;
 namespace {
+
+/// Notes the names of all keys of `values`, written `{a: {b: 1}}` or `a.b: 1`.
+void note_keys(const YAML::Node& values, const std::string& where, const std::string& prefix, Options& options) {
+  for (const auto& entry : values) {
+    const std::string key = prefix + (entry.first.IsScalar() ? entry.first.Scalar() : "");
+    if (entry.second.IsMap()) {
+      note_keys(entry.second, where, key + ".", options);
+    } else {
+      options.given.emplace_back(config::place(entry.second, where), key);
+    }
+  }
+}
 
 /// Applies `values`: the key `rate` here, all others to the settings of the simulation.
 void apply(const YAML::Node& values, const std::string& where, Options& options) {
@@ -22,6 +35,7 @@ void apply(const YAML::Node& values, const std::string& where, Options& options)
   }
   hand_input::take_input_settings(settings, where, options.input);
   simulation::apply_settings(settings, where, options.settings);
+  note_keys(values, where, "", options);
 }
 
 void apply_assignment(const std::string& assignment, Options& options) {
@@ -55,6 +69,8 @@ void check_complete(const Options& options) {
   if (options.bag.empty() && !(options.parent + options.child).empty())
     throw validation::InputError(std::string(command_line) +
                                  ": --parent, --child: can only be given together with --bag");
+  if (options.bag.empty() && options.hand_only)
+    throw validation::InputError(std::string(command_line) + ": --hand-only: can only be given together with --bag");
   if (options.out.empty()) validation::refuse_missing(command_line, "--out", "path of the CSV file to write");
 }
 
@@ -70,12 +86,15 @@ std::optional<Options> parse_options(int argc, char** argv) {
                                   once("bag", options.bag),
                                   once("parent", options.parent),
                                   once("child", options.child),
+                                  {"hand-only", [&](const std::string&) { options.hand_only = true; }, no_argument},
                                   once("settings", settings),
                                   {"set", [&](const std::string& assignment) { assignments.push_back(assignment); }},
                                   once("out", options.out)})) {
     return std::nullopt;
   }
   check_complete(options);
+  if (!options.parent.empty()) options.given.emplace_back(command_line, "--parent");
+  if (!options.child.empty()) options.given.emplace_back(command_line, "--child");
   if (options.parent.empty()) options.parent = "workbench";
   if (options.child.empty()) options.child = "stylus";
   if (!settings.empty()) apply(config::load_yaml_file(settings), settings, options);
@@ -83,21 +102,33 @@ std::optional<Options> parse_options(int argc, char** argv) {
   return options;
 }
 
+void check_beside_journal(const Options& options) {
+  static const std::regex determined(
+      "--.*|rate|input\\..*|tool|styluses|integrator|step|tolerance|error_bound|"
+      "fork\\.(dofs\\..*|stiffness\\.(stretch|bend|torsion)|damping.*)");
+  for (const auto& [place, name] : options.given) {
+    if (!std::regex_match(name, determined)) continue;
+    throw validation::InputError(validation::prefix(place, name) + "cannot be given for " + options.bag +
+                                 ", whose ~accepted and ~changes are repeated as recorded; add --hand-only to play " +
+                                 "only its hands, with the settings given");
+  }
+}
+
 std::string help_text() {
   std::ostringstream text;
-  text << R"(Runs the simulation on a recorded hand, without a ROS master or a clock, and writes CSV.
-Equal input gives bit-identical output.
+  text << R"(Runs the simulation on a recorded hand, without ROS master or clock; equal input gives bit-identical CSV.
 
-replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [--settings FILE.yaml]
-       [--set key=value ...] --out RUN.csv
+replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [--hand-only]
+       [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
 
   --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
-  --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints.
-              Give it once for each hand; the time of each starts at its own first sample
-  --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
+  --motion    a hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints; the
+              time of each starts at its own first sample
+  --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus), placed by
               /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; further hands
               from CHILD_2 (stylus_2) and stylus_2/joy, CHILD_3, ..., all that the bag has. If it has ~accepted and
               ~changes of manipulation, the run since its last start is repeated, with a line for each committed time
+  --hand-only plays only the poses and buttons of such a bag, with the settings given
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; takes precedence over --settings
   --out       writes RUN.csv and RUN.fork.csv; nothing is written if anything fails

@@ -95,7 +95,10 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand stays at rest");
   if (hand.reacquisition.losses > last.hand.reacquisition.losses)
     status.raise(DiagnosticStatus::WARN, "the hand was lost");
-  if (hand.gate.dropouts > last.hand.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
+  if (hand.gate.dropouts > last.hand.gate.dropouts) {
+    const std::string complaint = complaint_about_gaps(hand.gate, dropout_after_);
+    status.raise(DiagnosticStatus::WARN, complaint.empty() ? "dropouts" : complaint);
+  }
   if (more_rejected) status.raise(DiagnosticStatus::WARN, "samples rejected");
   return status.status();
 }

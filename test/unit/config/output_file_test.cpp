@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -83,6 +84,24 @@ TEST(OutputFile, WithoutCommitNothingIsThere) {
   const test_support::TemporaryFolder folder;
   OutputFile(folder.path("a.txt")).write("text");
   EXPECT_EQ(files_in(folder.path("")), 0u);
+}
+
+TEST(OutputFile, AKilledProcessLeavesNothing) {
+  const test_support::TemporaryFolder folder;
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      std::signal(signal, SIG_DFL);
+      OutputFile file(folder.path("a.txt"));
+      file.write(std::string(100000, 'x'));
+      raise(signal);
+      _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(files_in(folder.path("")), 0u);
+  }
 }
 
 /// E.g. for a header with the length of the rest.

@@ -5,6 +5,9 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "spring_workbench/StepReport.h"
 
@@ -26,6 +29,25 @@ TEST(ManipulationDiagnostics, TellThatTheLoopWaitsForMessages) {
       if (value.key == "waits for unsent messages") said = value.value;
     }
     EXPECT_EQ(said, std::to_string(waits));
+  }
+}
+
+/// Samples that all count as the return of a lost hand, which never moves.
+TEST(ManipulationDiagnostics, TellThatSamplesComeFartherApartThanADropout) {
+  ManipulationDiagnostics diagnostics("node", 0.5);
+  std::vector<TrackerInput> styluses(1);
+  styluses[0].hand.stream.samples = styluses[0].hand.gate.accepted = 100;
+  styluses[0].hand.gate.newest_dropout = 0.625;
+  const std::pair<std::size_t, std::string> cases[] = {
+      {1, "dropouts"},
+      {99,
+       "samples come 0.625 s apart, more than dropout_after = 0.5 s: each counts as the return of a lost hand, which "
+       "does not move; increase dropout_after"}};
+  for (const auto& [dropouts, message] : cases) {
+    styluses[0].hand.gate.dropouts = dropouts;
+    const diagnostic_msgs::DiagnosticStatus status = diagnostics.report(styluses, {}, 0.0).front();
+    EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+    EXPECT_EQ(status.message, message);
   }
 }
 

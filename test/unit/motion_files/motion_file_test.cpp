@@ -118,6 +118,14 @@ TEST(MotionFile, BadLinesNameFileLineFieldValueAndRule) {
   EXPECT_EQ(refusal("0 0 0 0 0 0 0 1 0\n1 0 0 0 0 0 0 1 2\n"), ":2: button: invalid value '2': expected 0 or 1");
 }
 
+TEST(MotionFile, AByteOrderMarkIsIgnored) {
+  EXPECT_EQ(read_text("\xEF\xBB\xBF"
+                      "0 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n")
+                .size(),
+            2u);
+  EXPECT_EQ(read_text("\xEF\xBB\xBF# t x y z\n0 1 2 3 0 0 0 1\n").size(), 1u);
+}
+
 TEST(MotionFile, AFileWithoutSamplesIsRefused) {
   for (const char* text : {"", "\n\n", "# only a comment"}) {
     EXPECT_EQ(refusal(text).rfind(": expected lines of t x y z", 0), 0u);

@@ -2,6 +2,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/Joy.h>
+#include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -26,6 +27,8 @@
 
 namespace spring_workbench::replay {
 namespace {
+
+const std::string world = "world";  // as the parameter ~world_frame of `manipulation`
 
 /// Removes a leading slash from the name of a frame or topic.
 std::string bare(const std::string& name) { return !name.empty() && name[0] == '/' ? name.substr(1) : name; }
@@ -98,11 +101,19 @@ class BagReader {
       : path_(std::move(path)),
         parent_(bare(parent)),
         child_(bare(child)),
-        clutch_button_(static_cast<std::size_t>(clutch_button)) {}
+        clutch_button_(static_cast<std::size_t>(clutch_button)) {
+    if (parent_ == world) return;
+    geometry_msgs::TransformStamped same;  // until /tf_static says otherwise
+    same.header.frame_id = world;
+    same.child_frame_id = parent_;
+    same.transform.rotation.w = 1.0;
+    frames_.setTransform(same, path_, true);
+  }
 
   std::map<std::size_t, Motion> read() {
     rosbag::Bag bag(path_, rosbag::bagmode::Read);
     rosbag::View view(bag);
+    take_first_static(view);
     for (const rosbag::MessageInstance& message : view) take(message);
     ros::Time zero = ros::TIME_MAX;
     for (const auto& [number, hand] : hands_) {
@@ -120,6 +131,7 @@ class BagReader {
   struct Pose {
     ros::Time stamp;
     RigidTransform X;
+    double quaternion_norm;
   };
   struct Buttons {
     ros::Time stamp;
@@ -132,7 +144,13 @@ class BagReader {
 
   static Motion motion(const Hand& hand, const ros::Time& zero) {
     Motion motion;
-    for (const Pose& pose : hand.poses) motion.samples.push_back({seconds_between(zero, pose.stamp), pose.X});
+    for (const Pose& pose : hand.poses) {
+      motion::StylusSample sample;
+      sample.t = seconds_between(zero, pose.stamp);
+      sample.X = pose.X;
+      sample.quaternion_norm = pose.quaternion_norm;
+      motion.samples.push_back(sample);
+    }
     for (const Buttons& b : hand.buttons) {
       const double t = std::max(0.0, seconds_between(zero, b.stamp));
       add_button(t, b.grasp, motion.buttons);
@@ -153,10 +171,39 @@ class BagReader {
     }
   }
 
+  /// A recorder joins /tf_static late: its first transform of a frame holds from the start of the bag.
+  void take_first_static(rosbag::View& view) {
+    std::vector<tf2_msgs::TFMessageConstPtr> messages;
+    for (const rosbag::MessageInstance& message : view) {
+      if (bare(message.getTopic()) != "tf_static") continue;
+      if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) messages.push_back(tf);
+    }
+    for (auto tf = messages.rbegin(); tf != messages.rend(); ++tf) take_static(**tf);
+  }
+
+  void take_static(const tf2_msgs::TFMessage& tf) {
+    for (geometry_msgs::TransformStamped transform : tf.transforms) {
+      transform.header.frame_id = bare(transform.header.frame_id);
+      transform.child_frame_id = bare(transform.child_frame_id);
+      const RigidTransform X = to_pose(transform.transform, path_ + ": /tf_static: " + transform.header.frame_id +
+                                                                " -> " + transform.child_frame_id);
+      Eigen::Map<Eigen::Vector4d>(&transform.transform.rotation.x) = Quaterniond(X.linear()).coeffs();
+      frames_.setTransform(transform, path_, true);
+    }
+  }
+
+  /// Pose of a frame in the world or, where /tf_static puts `parent` elsewhere, in `parent`; none if /tf_static does
+  /// not connect the two.
+  std::optional<RigidTransform> place_of(const std::string& from) const {
+    const std::string root = frames_.canTransform(world, parent_, {}) ? world : parent_;
+    if (from == root) return RigidTransform::Identity();
+    if (!frames_.canTransform(root, from, {})) return std::nullopt;
+    return to_pose(frames_.lookupTransform(root, from, {}).transform, path_ + ": /tf_static");
+  }
+
   void take(const rosbag::MessageInstance& message) {
     warn_of_renamed(message);
     const std::string topic = bare(message.getTopic());
-    if (topic == "tf_static") return;
     if (message.getDataType() == "sensor_msgs/Joy") {
       const std::size_t begins = topic.rfind("/joy");
       const auto hand = hand_of(topic.substr(0, begins), "stylus");
@@ -167,6 +214,7 @@ class BagReader {
       hands_[*hand].buttons.push_back(
           {joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, down(0), down(1), down(clutch_button_)});
     } else if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {  // also the older tf/tfMessage
+      if (topic == "tf_static") return take_static(*tf);
       for (const auto& transform : tf->transforms) take(transform, message.getTime());
     }
   }
@@ -176,11 +224,15 @@ class BagReader {
     const std::string to = bare(transform.child_frame_id);
     pairs_.insert(from + " -> " + to);
     const auto hand = hand_of(to, child_);
-    if (from != parent_ || !hand) return;
+    if (!hand) return;
+    const std::optional<RigidTransform> X_WP = place_of(from);
+    if (!X_WP) return;
     const ros::Time stamp = transform.header.stamp.isZero() ? received : transform.header.stamp;
     std::ostringstream where;
     where << path_ << ": " << from << " -> " << to << " at " << stamp;
-    hands_[*hand].poses.push_back({stamp, to_pose(transform.transform, where.str())});
+    const auto& q = transform.transform.rotation;
+    hands_[*hand].poses.push_back(
+        {stamp, *X_WP * to_pose(transform.transform, where.str()), Quaterniond(q.w, q.x, q.y, q.z).norm()});
   }
 
   [[noreturn]] void refuse_missing() const {
@@ -191,6 +243,7 @@ class BagReader {
 
   std::string path_, parent_, child_;
   std::size_t clutch_button_;
+  tf2::BufferCore frames_;  ///< of /tf_static
   std::map<std::size_t, Hand> hands_;
   std::set<std::string> own_types_;  ///< types of our messages found so far
   std::set<std::string> pairs_;      ///< all pairs of frames in the bag, for the error message
