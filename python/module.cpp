@@ -28,7 +28,19 @@ RigidTransform pose(const std::vector<double>& position, const std::vector<doubl
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled part of spring_workbench.";
-  py::register_exception<validation::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
+  // Not py::register_exception: a message may quote bytes that are not UTF-8.
+  static const py::exception<validation::InputError> input_error(module, "InputError", PyExc_ValueError);
+  py::register_exception_translator([](std::exception_ptr error) {
+    try {
+      if (error) std::rethrow_exception(error);
+    } catch (const validation::InputError& refusal) {
+      const std::string text = refusal.what();
+      const auto size = static_cast<py::ssize_t>(text.size());
+      PyErr_SetObject(input_error.ptr(),
+                      py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(text.data(), size, "replace")).ptr());
+    }
+  });
+  py::object(input_error).attr("__doc__") =
       "Invalid input. The message names the field, what is allowed and what was given; the state is unchanged.";
   bind_settings(module);
   bind_motions(module);

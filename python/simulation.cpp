@@ -44,12 +44,14 @@ simulation::ChangeReport change(Simulation& of, const py::object& stiffness, con
   return of.change(fork, dynamics, hand);
 }
 
-void push_motion(Simulation& to, const Motion& motion, std::size_t hand) {
+std::size_t push_motion(Simulation& to, const Motion& motion, std::size_t hand) {
   bool pressed = false;
+  std::size_t added = 0;
   for (const motion::StylusSample& sample : motion.samples) {
-    to.push_stylus(sample, hand);
+    added += to.push_stylus(sample, hand) ? 1 : 0;
     if (sample.button != pressed) to.push_button(sample.t, pressed = sample.button, hand);
   }
+  return added;
 }
 
 std::map<std::string, RigidTransform> to_poses(const std::map<std::string, Array>& matrices) {
@@ -283,7 +285,10 @@ most the setting `styluses` - 1; any other raises InputError.)");
 axes: world, or tip (the axes turn with it). It is in real units: multiplied by the scene's force_scale, it acts until
 the next one, at most for external_wrench_timeout. Raises InputError if a value is not allowed.)")
       .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0,
-           "Adds all samples and button edges of a recorded motion.")
+           R"(Adds the samples and button edges of a recorded motion; returns the number of samples that were added.
+
+As push_stylus, it ignores each pose whose time is not later than that of the newest one. Raises InputError if a pose is
+invalid.)")
       .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
            R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 

@@ -331,8 +331,11 @@ class Simulation:
 
         axes: world, or tip (the axes turn with it). It is in real units: multiplied by the scene's force_scale, it acts
         until the next one, at most for external_wrench_timeout. Raises InputError if a value is not allowed."""
-    def push_motion(self, motion: Motion, hand: int = 0) -> None:
-        """Adds all samples and button edges of a recorded motion."""
+    def push_motion(self, motion: Motion, hand: int = 0) -> int:
+        """Adds the samples and button edges of a recorded motion; returns the number of samples that were added.
+
+        As push_stylus, it ignores each pose whose time is not later than that of the newest one. Raises InputError if a
+        pose is invalid."""
     def advance(self, t_end: float) -> AdvanceReport:
         """Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 

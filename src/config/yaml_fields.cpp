@@ -152,10 +152,13 @@ YAML::Node load_yaml_file(const std::string& path) {
     validation::refuse("", path, "a readable YAML file");
   }
   try {
-    const YAML::Node node = YAML::Load(text.str());
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
+    if (documents.size() > 1)
+      validation::refuse(path, "documents", "one in a file, got " + std::to_string(documents.size()));
+    if (documents.empty() || documents.front().IsNull()) return YAML::Node(YAML::NodeType::Map);
     long values = 0;
-    check_extent(node, path, 0, values);
-    return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
+    check_extent(documents.front(), path, 0, values);
+    return documents.front();
   } catch (const YAML::Exception& e) {
     throw validation::InputError(path + ":" + std::to_string(e.mark.line + 1) +
                                  ": not YAML: " + validation::one_line(e.msg));

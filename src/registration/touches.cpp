@@ -35,6 +35,13 @@ StoredRegistration read_registration(const YAML::Node& map, const std::string& w
   return result;
 }
 
+StoredRegistration read_registration_file(const std::string& path) {
+  const YAML::Node map = config::load_yaml_file(path);
+  config::check_keys(map, path, "", {"offset", "tip"});
+  return {config::read_required(map, path, "", "offset", config::read_pose),
+          config::read_required(map, path, "", "tip", read_point)};
+}
+
 std::vector<Landmark> read_landmarks(const std::string& path) {
   const YAML::Node map = config::load_yaml_file(path);
   config::check_keys(map, path, "", {"landmarks"});

@@ -8,7 +8,7 @@
 #include "constants.h"
 #include "mesh_reader.h"
 #include "package_path.h"
-#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/geometry/orientation.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::scene {
@@ -143,10 +143,7 @@ geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string
                        mesh.triangles.end());
   if (mesh.triangles.empty()) validation::refuse(where, "triangles", "at least one that is not flat");
   merge_vertices(mesh);
-  const geometry::MeshPtr view(&mesh, [](const geometry::TriangleMesh*) {});
-  if (geometry::volume_properties(view).volume < 0.0) {
-    for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[1], t[2]);
-  }
+  geometry::orient(mesh);
   return mesh;
 }
 

@@ -28,8 +28,8 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
 std::string resolve_new_file(const std::string& name, const std::vector<std::string>& roots, const std::string& where,
                              const std::string& key);
 
-/// Cleans a mesh: merges equal vertices, removes degenerate triangles, and flips a mesh that is inside out. Throws
-/// InputError naming `where` for invalid indices, values that are not finite, or if no triangle is left.
+/// Cleans a mesh: merges equal vertices, removes degenerate triangles, and orients the others (see geometry::orient).
+/// Throws InputError naming `where` for invalid indices, values that are not finite, or if no triangle is left.
 geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string& where);
 
 /// Whether every edge has a triangle on both sides with opposite directions, so that the mesh has a volume.

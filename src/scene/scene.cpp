@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 #include "mass.h"
 #include "mesh_file.h"
@@ -46,6 +47,15 @@ Body build_object(const UrdfFile& urdf, const std::optional<RigidTransform>& X_W
   return std::move(bodies.front());
 }
 
+/// Refuses an object with the name of a frame that the nodes publish.
+void check_name(const std::string& name, const std::string& where, const std::string& key) {
+  static const std::regex frames("world|workbench|(stylus|head|eye_left|eye_right|fork_handle|fork_tip)(_[0-9]+)?");
+  if (!std::regex_match(name, frames)) return;
+  validation::refuse(where, key, name,
+                     "a name other than world, workbench, and stylus, head, eye_left, eye_right, fork_handle or "
+                     "fork_tip with or without a number, which are frames");
+}
+
 /// Assembles a scene from its URDF, the YAML file next to it and the URDFs that this file refers to.
 class SceneLoader {
  public:
@@ -53,7 +63,7 @@ class SceneLoader {
       : path_(path), roots_(roots), meshes_(roots) {}
 
   Scene load() {
-    const fs::path yaml = fs::path(path_).replace_extension(".yaml");
+    const fs::path yaml = yaml_next_to(path_);
     if (fs::symlink_status(yaml).type() != fs::file_type::not_found) {
       file_ = read_scene_file(resolve_file(yaml.string(), "", roots_, path_, "the YAML file next to it"));
     }
@@ -90,11 +100,15 @@ class SceneLoader {
     scene_.bodies = build_bodies(
         urdf, RigidTransform::Identity(), [this](const std::string& body) { return material_of(body); }, meshes_,
         scene_.warnings);
+    for (const Body& body : scene_.bodies) {
+      if (body.movable) check_name(body.name, urdf.where(body.name), "name");
+    }
     if (!is_bench_scene(urdf)) lay_on_bench(scene_.bench_height, scene_.bodies);
   }
 
   void add_object(const std::string& name, const ObjectEntry& entry) {
     const std::string key = "objects." + name + ".urdf";
+    check_name(name, entry.where, "objects");
     const std::string folder = fs::path(path_).parent_path().string();
     const UrdfFile urdf = read_urdf(resolve_file(*entry.urdf, folder, roots_, entry.where, key));
     Body body = build_object(urdf, entry.X_WL, entry.material, scene_.bench_height, meshes_, scene_.warnings,
@@ -132,9 +146,8 @@ Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>&
 
 Body read_object(const std::string& name, const std::string& urdf, const std::optional<RigidTransform>& X_WL,
                  const Scene& scene, const std::vector<std::string>& roots, const std::string& where) {
-  if (name.empty() || name == "world" || name == "workbench" || find_body(scene, name)) {
-    validation::refuse(where, "name", name, "a new name, other than world and workbench");
-  }
+  if (name.empty() || find_body(scene, name)) validation::refuse(where, "name", name, "a new name");
+  check_name(name, where, "name");
   const std::string folder = fs::path(scene.path).parent_path().string();
   const UrdfFile file = read_urdf_file(resolve_file(urdf, folder, roots, where, "urdf"));
   std::vector<std::string> warnings;

@@ -1,5 +1,8 @@
 #include "scene_file.h"
 
+#include <filesystem>
+#include <set>
+
 #include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench::scene {
@@ -106,10 +109,26 @@ template <class Read>
 void for_each_entry(const YAML::Node& map, const std::string& path, const std::string& key, const Read& read) {
   if (!map[key].IsDefined()) return;
   if (!map[key].IsMap()) validation::refuse(config::place(map[key], path), key, "a map of names");
-  for (const auto& entry : map[key]) read(config::read_string(entry.first, path, key), entry.second);
+  std::set<std::string> seen;
+  for (const auto& entry : map[key]) {
+    const std::string name = config::read_string(entry.first, path, key);
+    if (!seen.insert(name).second)
+      throw validation::InputError(validation::prefix(config::place(entry.first, path), key + "." + name) +
+                                   "given twice");
+    read(name, entry.second);
+  }
 }
 
 }  // namespace
+
+std::string yaml_next_to(const std::string& urdf) {
+  namespace fs = std::filesystem;
+  const auto exists = [](const fs::path& path) { return fs::symlink_status(path).type() != fs::file_type::not_found; };
+  const fs::path yaml = fs::path(urdf).replace_extension(".yaml"), yml = fs::path(urdf).replace_extension(".yml");
+  if (!exists(yml)) return yaml.string();
+  if (exists(yaml)) validation::refuse(urdf, "the YAML file next to it", "one, got .yaml and .yml");
+  return yml.string();
+}
 
 SceneFile read_scene_file(const std::string& path) {
   const YAML::Node map = config::load_yaml_file(path);

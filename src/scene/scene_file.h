@@ -28,6 +28,10 @@ struct SceneFile {
 /// Key of `start:` for a hand, from 0: handle, handle_2, ...
 inline std::string handle_key(std::size_t hand) { return hand == 0 ? "handle" : "handle_" + std::to_string(hand + 1); }
 
+/// Path of the YAML file next to a URDF, which may not exist: .yml if there is such a file, otherwise .yaml. Throws
+/// InputError if there are both.
+std::string yaml_next_to(const std::string& urdf);
+
 /// Reads a scene file. Throws InputError with file:line, key, value and rule; unknown keys are refused.
 SceneFile read_scene_file(const std::string& path);
 

@@ -194,8 +194,7 @@ std::string yaml_of(const Scene& scene) {
 std::string save_scene(const Scene& scene, const std::string& path, const std::vector<std::string>& roots) {
   const fs::path urdf = resolve_new_file(path, roots, "", "path");
   if (urdf.extension() != ".urdf") validation::refuse("", "path", path, "a path that ends in .urdf");
-  const fs::path yaml = fs::path(urdf).replace_extension(".yaml");
-  config::OutputFile new_urdf(urdf.string()), new_yaml(yaml.string());
+  config::OutputFile new_urdf(urdf.string()), new_yaml(yaml_next_to(urdf.string()));
   new_urdf.write(urdf_of(scene));
   new_yaml.write(yaml_of(scene));
   new_yaml.commit();

@@ -122,7 +122,8 @@ class BodyBuilder {
     for (geometry::Shape& shape : body.visual) shape.X_OS = body.X_OL * shape.X_OS;
   }
 
-  /// Mass of a link from the URDF, in the frame of the group's first link; zero if the URDF gives none.
+  /// Mass of a link from the URDF, in the frame of the group's first link; zero if the URDF gives none, and from its
+  /// shapes if the URDF's cannot be read or is not positive.
   RigidMass link_mass(const urdf::Link& link, const RigidTransform& X_LK, const std::vector<geometry::Shape>& shapes,
                       double density) {
     const std::string where = file_.where(link.name);
@@ -136,9 +137,10 @@ class BodyBuilder {
     if (!link.inertial) return {};
     const urdf::Inertial& i = *link.inertial;
     if (!(i.mass > 0.0)) {
-      warnings_.push_back(where + ": mass " + validation::number_text(i.mass) +
-                          " is not positive: mass and inertia of its shapes are used");
-      return {};
+      const RigidMass solid = solid_mass(shapes, density, where, warnings_);
+      warnings_.push_back(where + ": mass " + validation::number_text(i.mass) + " is not positive: " +
+                          (solid.mass > 0.0 ? "mass and inertia of its shapes are used" : "the link has none"));
+      return solid;
     }
     Matrix3d inertia;
     inertia << i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz;

@@ -136,6 +136,15 @@ void try_elements(TiXmlElement& link, UrdfFile& file) {
   }
 }
 
+/// Refuses what xacro would have replaced: urdfdom skips it silently.
+void refuse_xacro(const TiXmlElement& element, const std::string& path) {
+  if (element.ValueStr().rfind("xacro:", 0) == 0) {
+    validation::refuse(place(path, element.Row()), validation::one_line(element.ValueStr()),
+                       "a URDF without elements of xacro: expand it (rosrun xacro xacro FILE > NEW_FILE)");
+  }
+  for (auto child = element.FirstChildElement(); child; child = child->NextSiblingElement()) refuse_xacro(*child, path);
+}
+
 int depth_below(const TiXmlNode& node) {
   int deepest = 0;
   for (const TiXmlNode* child = node.FirstChild(); child != nullptr; child = child->NextSibling()) {
@@ -225,6 +234,7 @@ UrdfFile read_urdf_file(const std::string& path) {
   UrdfFile file;
   file.path = path;
   if (TiXmlElement* robot = document.FirstChildElement("robot")) {
+    refuse_xacro(*robot, path);
     refuse_loops(*robot, path);
     std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {

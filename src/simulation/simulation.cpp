@@ -69,8 +69,10 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   }
   if (settings.tool) scene.tool = validation::name_of(*settings.tool);
   for (const ObjectEdit& edit : edits) make_edit(edit, roots, settings.massless, scene);
-  if (const tools::GraspSettings& grasp = settings.grasp; !grasp.object.empty())
-    scene::movable_body(scene, grasp.object, grasp.object_place, "grasp.object");
+  const tools::GraspSettings& grasp = settings.grasp;
+  if (!grasp.object.empty()) scene::movable_body(scene, grasp.object, grasp.object_place, "grasp.object");
+  if (grasp.object.empty() && grasp.start_follow)
+    validation::refuse("", "start.follow", "grasp.object as well, the object that moves");
   return scene;
 }
 

@@ -117,7 +117,7 @@ class LaunchFiles(unittest.TestCase):
                 self.assertEqual(frames, ["pen", "table"], (source, node))
 
     def test_bag_moves_the_object(self):
-        folder = tempfile.mkdtemp()
+        folder = tempfile.mkdtemp(prefix="a folder ")
         bag = os.path.join(folder, "hand.bag")
         make_bag(bag)
         objects, steps = Listener("manipulation/objects", ObjectStates), Listener("manipulation/steps", StepReport)
@@ -135,6 +135,13 @@ class LaunchFiles(unittest.TestCase):
             self.assertEqual(sum(m.steps_rejected for m in steps.messages), 0)
         shutil.rmtree(folder)
 
+    def test_a_bag_that_is_not_there_ends_the_launch(self):
+        with Launched("playback.launch", "bag:=/nowhere/a.bag", "rviz:=false") as launched:
+            wait_for(lambda: launched.process.poll() is not None, "roslaunch to end")
+
+    def test_a_sound_file_switches_sound_on(self):
+        self.assertEqual(self.parameters("workbench.launch", "sound_file:=/a.wav")["/contact_sound/file"], "/a.wav")
+
     def recorder_is_connected(self):
         """Whether rosbag listens to both topics that a replay needs."""
         try:
@@ -147,7 +154,7 @@ class LaunchFiles(unittest.TestCase):
     def test_a_recorded_run_is_replayed(self):
         rospy.set_param("/use_sim_time", False)
         objects, changes = Listener("manipulation/objects", ObjectStates), Listener("manipulation/changes", Change)
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory(prefix="a folder ") as folder:
             record = "record:=" + os.path.join(folder, "run")
             frames = ["stylus_frame:=pen", "workbench_frame:=table"]
             with Launched("workbench.launch", "rviz:=false", "pause:=0", record, *frames):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """The node `tracker_driver` by its topics: a motion file of 50 samples, turned and moved by `start`, at double
-speed."""
+speed; from the source `scripted`, as from `motion_file`."""
 import sys
 import unittest
 

@@ -65,6 +65,18 @@ def test_invalid_wrenches_are_refused():
     assert simulation.state_hash == before
 
 
+def test_a_message_quotes_what_is_not_text(tmp_path):
+    (tmp_path / "hand.tum").write_bytes(b"0 0 0 \xff 0 0 0 1\n")
+    with pytest.raises(sw.InputError, match="hand.tum:1: z: invalid value '\ufffd': expected a number"):
+        sw.read_motion(str(tmp_path / "hand.tum"))
+
+
+def test_a_motion_says_how_much_of_it_was_added():
+    simulation, motion = sw.Simulation(sw.load_scene(BOX)), sw.read_motion(MOTION)
+    assert simulation.push_motion(motion) == len(motion)
+    assert simulation.push_motion(motion) == 0  # all of it is past
+
+
 def test_states_are_arrays_of_the_documented_shapes():
     simulation = sw.Simulation(sw.load_scene(BOX))
     simulation.push_motion(sw.read_motion(MOTION))

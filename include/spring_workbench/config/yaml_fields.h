@@ -52,7 +52,7 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
                 const std::vector<std::string>& allowed);
 
 /// Parses a YAML file. An empty file is an empty map. Throws InputError with file:line if the file cannot be read or
-/// parsed, or if its aliases make it endless or huge.
+/// parsed, if it has more than one document (`---`), or if its aliases make it endless or huge.
 YAML::Node load_yaml_file(const std::string& path);
 
 }  // namespace spring_workbench::config

@@ -128,8 +128,7 @@ void run(const Options& options, int argc, char** argv) {
     present = registration::read_registration(ros_common::private_parameters(ros::NodeHandle("tracker_driver")),
                                               "tracker_driver");
   } else {
-    if (!options.registration.empty())
-      present = registration::read_registration(config::load_yaml_file(options.registration), options.registration);
+    if (!options.registration.empty()) present = registration::read_registration_file(options.registration);
     samples = registration::as_sent(motion_files::read_motion_file(options.motion), present);
   }
   const std::string text = options.pivot

@@ -21,8 +21,7 @@
 #include "message_source.h"
 #include "operator_eyes.h"
 #include "spring_workbench/fastrak/station_stream.h"
-#include "spring_workbench/motion_files/motion_file.h"
-#include "spring_workbench/motion_files/scripted_source.h"
+#include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
@@ -109,9 +108,7 @@ class TrackerDriver {
       eyes_->wait();
       return std::make_unique<assembly::SimulatedOperator>(scene_, settings, [this] { return eyes_->look(); });
     }
-    const std::string path = resolve(parameters_.file);
-    if (parameters_.source == "scripted") return std::make_unique<motion_files::ScriptedSource>(path);
-    return std::make_unique<motion_files::RecordedSource>(motion_files::read_motion_file(path));
+    return motion_files::open_motion(resolve(parameters_.file));
   }
 
   /// Returns the device; null if the source is a motion.

@@ -199,6 +199,11 @@ TEST(LoadYamlFile, ReportsFileAndLineOfInvalidYaml) {
   folder.write("bad.yaml", "a: 1\nb: [1, 2\nc: 3\n");
   EXPECT_EQ(load_yaml_file(folder.path("good.yaml"))["a"].as<int>(), 1);
   EXPECT_TRUE(load_yaml_file(folder.path("empty.yaml")).IsMap());
+  folder.write("two.yaml", "a: 1\n---\nb: 2\n");
+  EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("two.yaml")); }),
+                    {"two.yaml: documents: expected one in a file, got 2"}));
+  folder.write("begun.yaml", "---\na: 1\n");
+  EXPECT_EQ(load_yaml_file(folder.path("begun.yaml"))["a"].as<int>(), 1);
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("bad.yaml")); }), {"bad.yaml:", "not YAML"}));
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("nothing.yaml")); }),
                     {"nothing.yaml: expected a readable YAML file"}));

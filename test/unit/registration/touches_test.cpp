@@ -5,6 +5,7 @@
 
 #include "spring_workbench/validation/input_error.h"
 #include "support/random_poses.h"
+#include "support/temporary_folder.h"
 
 namespace spring_workbench::registration::touches_test {
 namespace {
@@ -26,7 +27,31 @@ std::vector<motion::StylusSample> resting_at(const std::vector<Vector3d>& tips_T
   return samples;
 }
 
-StoredRegistration read(const std::string& text) { return read_registration(YAML::Load(text), "test"); }
+StoredRegistration read(const std::string& text) {
+  const test_support::TemporaryFolder folder;
+  folder.write("found.yaml", text);
+  return read_registration_file(folder.path("found.yaml"));
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const validation::InputError& error) {
+    const std::string message = error.what();
+    return message.substr(message.find("found.yaml"));
+  }
+  return "(read)";
+}
+
+TEST(Touches, AFileOfARegistrationHasBothKeysAndNoOthers) {
+  const std::string offset = "offset: [0, 0, 0, 0, 0, 0, 1]\n", tip = "tip: [0.01, 0.02, 0.15]\n";
+  EXPECT_EQ(refusal(offset + tip), "(read)");
+  EXPECT_EQ(refusal(""), "found.yaml: missing required key offset: 7 finite numbers");
+  EXPECT_EQ(refusal(offset), "found.yaml:1: missing required key tip: 3 finite numbers");
+  EXPECT_EQ(refusal(offset + "tp: [0, 0, 0]\n"), "found.yaml:2: tp: unknown key; known keys are offset, tip");
+  EXPECT_EQ(refusal("0 0 0 0.4 1 0 0 0\n"),
+            "found.yaml:1: top level: invalid value '0 0 0 0.4 1 0 0 0': expected a map");
+}
 
 TEST(Touches, TheTipIsAddedToTheOneThereIs) {
   const Vector3d p_ST(0.01, -0.02, 0.15), known(0.01, 0.0, 0.1);

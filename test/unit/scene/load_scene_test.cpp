@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/scene/editing.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/temporary_folder.h"
@@ -231,6 +232,30 @@ TEST_F(LoadScene, MassThatIsNotPositiveComesFromTheShapeOrIsRefused) {
   EXPECT_TRUE(has(part_refusal(""), "link 'part': mass"));
 }
 
+/// The same body, whichever of its two halves has the mass that is not positive.
+TEST_F(LoadScene, MassThatIsNotPositiveComesFromTheShapeInEachLinkOfABody) {
+  for (const std::string mass : {"0", "-3"}) {
+    for (const bool first : {true, false}) {
+      const std::string given = inertial("8", "0.05 0.05 0.05") + unit_box, none = inertial(mass, "1 1 1") + unit_box;
+      const Scene scene = load(
+          "<link name='world'/><link name='part'>" + (first ? none : given) + "</link><link name='other'>" +
+          (first ? given : none) + "</link>" + floating_joint +
+          "<joint name='f' type='fixed'><parent link='part'/><child link='other'/><origin xyz='0.4 0 0'/></joint>");
+      EXPECT_TRUE(warned(scene, std::string("link '") + (first ? "part" : "other") + "': mass " + mass));
+      EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 16.0, 1e-12);
+      EXPECT_TRUE(scene.bodies[0].X_OL.translation().isApprox(Vector3d(-0.2, 0, 0), 1e-12));
+    }
+  }
+}
+
+TEST_F(LoadScene, AMassThatIsNotPositiveWithoutAVolumeIsNone) {
+  const Scene scene = load("<link name='world'/><link name='part'>" + inertial("8", "0.05 0.05 0.05") + unit_box +
+                           "</link><link name='other'>" + inertial("0", "1 1 1") + "</link>" + floating_joint +
+                           "<joint name='f' type='fixed'><parent link='part'/><child link='other'/></joint>");
+  EXPECT_TRUE(warned(scene, "link 'other': mass 0 is not positive: the link has none"));
+  EXPECT_EQ(scene.bodies[0].mass_properties.mass, 8.0);
+}
+
 // ---- refusals
 
 TEST_F(LoadScene, DegenerateSizesAreRefused) {
@@ -339,6 +364,14 @@ TEST_F(LoadScene, AMirroredOrInsideOutMeshStillHasItsVolume) {
     const Scene scene = load_part("<collision><geometry><mesh " + mesh + "/></geometry></collision>");
     EXPECT_NEAR(geometry::volume_properties(scene.bodies[0].collision[0].geometry).volume, 1.0 / 6.0, 1e-7);
   }
+}
+
+TEST_F(LoadScene, AClosedMeshWhoseFacesDisagreeHasAnInside) {
+  write_mesh("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const Scene scene = load_part("<collision><geometry><mesh filename='t.obj'/></geometry></collision>");
+  EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 1000.0 / 6.0, 1e-6);
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_TRUE(geometry::contains(scene.bodies[0].collision, Vector3d::Zero()));  // the centre of mass
 }
 
 TEST_F(LoadScene, StlAndObjOfOneShapeAreOneShape) {
@@ -538,6 +571,10 @@ TEST_F(LoadScene, BadYamlIsRefusedWithLineAndKey) {
            {"objects:\n  part: {friction: -0.1}", ":2:", "objects.part.friction"},
            {"objects:\n  nobody: {friction: 0.1}", ":2:", "nobody"},
            {"objects: [1, 2]", ":1:", "objects"},
+           {"objects:\n  part: {friction: 0.1}\n  part: {friction: 0.2}", ":3:", "objects.part: given twice"},
+           {"targets: {part: {pose: [0, 0, 0, 0, 0, 0, 1]},\n  part: {pose: [1, 0, 0, 0, 0, 0, 1]}}",
+            ":2:", "targets.part: given twice"},
+           {"gravity: 1\n---\ngravity: 2", ": documents:", "expected one in a file, got 2"},
            {"objects:\n  part: {pose: [0, 0, 0, 0, 0, 0, 1]}", ":2:", "objects.part.pose"},
            {"objects:\n  mug: {urdf: nothing.urdf}", ":2:", "objects.mug.urdf"},
            {"targets:\n  nobody: {pose: [0, 0, 0, 0, 0, 0, 1]}", ":2:", "nobody"},
@@ -574,6 +611,50 @@ TEST_F(LoadScene, TwoObjectsOfOneNameAreRefused) {
   write_mesh("mug.urdf",
              "<robot name='m'><link name='base'>" + inertial("1", "0.01 0.01 0.01") + unit_box + "</link></robot>");
   EXPECT_TRUE(has(part_refusal(unit_box, "objects: {part: {urdf: mug.urdf}}"), "part"));
+}
+
+TEST_F(LoadScene, AnObjectWithTheNameOfAFrameIsRefused) {
+  write_mesh("mug.urdf",
+             "<robot name='m'><link name='base'>" + inertial("1", "0.01 0.01 0.01") + unit_box + "</link></robot>");
+  for (const std::string name : {"workbench", "stylus", "stylus_2", "head", "head_2", "eye_left", "eye_right_2",
+                                 "fork_handle", "fork_tip", "fork_tip_12"}) {
+    const std::string joint =
+        "<joint name='j' type='floating'><parent link='world'/><child link='" + name + "'/></joint>";
+    EXPECT_TRUE(has(refusal("<link name='world'/><link name='" + name + "'>" + unit_box + "</link>" + joint),
+                    "link '" + name + "': name: invalid value '" + name + "': expected a name other than"));
+    EXPECT_TRUE(has(part_refusal(unit_box, "objects: {" + name + ": {urdf: mug.urdf}}"),
+                    "scene.yaml:1: objects: invalid value '" + name + "': expected a name other than"));
+    EXPECT_THROW(read_object(name, folder_.path("mug.urdf"), {}, load_part(unit_box), {}, "test"),
+                 validation::InputError);
+  }
+  EXPECT_EQ(load_part(unit_box, "objects: {head_rest: {urdf: mug.urdf}}").bodies.size(), 2u);
+  const std::string fixed = "<joint name='j' type='fixed'><parent link='world'/><child link='head'/></joint>";
+  EXPECT_EQ(load("<link name='world'/><link name='head'>" + unit_box + "</link>" + fixed).bodies.size(), 1u);
+}
+
+TEST_F(LoadScene, WhatXacroWouldReplaceIsRefused) {
+  const std::string start = "<link name='world'/><link name='part'>" + unit_box, end = "</link>" + floating_joint;
+  EXPECT_TRUE(has(refusal("<xacro:property name='w' value='0.1'/>" + start + end),
+                  "scene.urdf:2: xacro:property: expected a URDF without elements of xacro"));
+  EXPECT_TRUE(has(refusal(start + "\n<xacro:unit_mass/>" + end), "scene.urdf:3: xacro:unit_mass: "));
+}
+
+TEST_F(LoadScene, TheYamlNextToItMayEndInYml) {
+  load_part(unit_box);
+  folder_.write("scene.yml", "gravity: 1");
+  const std::string urdf = folder_.path("scene.urdf");
+  try {
+    load_scene(urdf);
+    ADD_FAILURE() << "loaded with both files";
+  } catch (const validation::InputError& error) {
+    EXPECT_TRUE(has(error.what(), "scene.urdf: the YAML file next to it: expected one, got .yaml and .yml"));
+  }
+  std::filesystem::remove(folder_.path("scene.yaml"));
+  Scene scene = load_scene(urdf);
+  EXPECT_EQ(scene.gravity, 1.0);
+  scene.gravity = 2.0;
+  save_scene(scene, urdf, {});
+  EXPECT_EQ(load_scene(urdf).gravity, 2.0);
 }
 
 TEST_F(LoadScene, LoadsTheSameFromManyThreads) {
