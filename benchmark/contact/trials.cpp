@@ -165,8 +165,8 @@ const std::map<std::string, void (*)(bool quick, const TakeRow& take)>& trials()
 
 /// Trials for the seeds first … first + count − 1.
 const std::map<std::string, void (*)(int count, int first, const TakeRow& take)>& seeded_trials() {
-  static const std::map<std::string, void (*)(int, int, const TakeRow&)> all{
-      {"rings", run_rings}, {"chain", run_chains}};
+  static const std::map<std::string, void (*)(int, int, const TakeRow&)> all{{"rings", run_rings},
+                                                                             {"chain", run_chains}};
   return all;
 }
 
