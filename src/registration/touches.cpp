@@ -38,8 +38,9 @@ StoredRegistration read_registration(const YAML::Node& map, const std::string& w
 StoredRegistration read_registration_file(const std::string& path) {
   const YAML::Node map = config::load_yaml_file(path);
   config::check_keys(map, path, "", {"offset", "tip"});
-  return {config::read_required(map, path, "", "offset", config::read_pose),
-          config::read_required(map, path, "", "tip", read_point)};
+  StoredRegistration result = read_registration(map, path);
+  result.p_ST = config::read_required(map, path, "", "tip", read_point);
+  return result;
 }
 
 std::vector<Landmark> read_landmarks(const std::string& path) {

@@ -18,8 +18,8 @@ struct StoredRegistration {
 
 /// Reads the optional keys `offset` and `tip`; ignores other keys. Throws InputError with `where` if one is invalid.
 StoredRegistration read_registration(const YAML::Node& map, const std::string& where);
-/// Reads a file that find_tip() or find_tracker() wrote. Throws InputError with file:line, key, value and rule if one
-/// of the two keys is missing or invalid, or if there is another.
+/// Reads a file as find_tip() and find_tracker() write it; `offset` may be missing. Throws InputError with file:line,
+/// key, value and rule if `tip` is missing, if one of the two is invalid, or if there is another key.
 StoredRegistration read_registration_file(const std::string& path);
 /// Reads the landmarks, `landmarks: [{name: …, position: x y z}, …]` [m, in the workbench frame], in the order in which
 /// they are touched. Throws InputError with file:line, key, value and rule.

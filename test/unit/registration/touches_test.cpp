@@ -43,10 +43,11 @@ std::string refusal(const std::string& text) {
   return "(read)";
 }
 
-TEST(Touches, AFileOfARegistrationHasBothKeysAndNoOthers) {
+TEST(Touches, AFileOfARegistrationHasATipAndNoUnknownKey) {
   const std::string offset = "offset: [0, 0, 0, 0, 0, 0, 1]\n", tip = "tip: [0.01, 0.02, 0.15]\n";
   EXPECT_EQ(refusal(offset + tip), "(read)");
-  EXPECT_EQ(refusal(""), "found.yaml: missing required key offset: 7 finite numbers");
+  EXPECT_EQ(refusal(tip), "(read)");
+  EXPECT_EQ(refusal(""), "found.yaml: missing required key tip: 3 finite numbers");
   EXPECT_EQ(refusal(offset), "found.yaml:1: missing required key tip: 3 finite numbers");
   EXPECT_EQ(refusal(offset + "tp: [0, 0, 0]\n"), "found.yaml:2: tp: unknown key; known keys are offset, tip");
   EXPECT_EQ(refusal("0 0 0 0.4 1 0 0 0\n"),
