@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """contact_sound as run by a user: contacts in, a WAV file or the sound device out."""
 import array
+import contextlib
 import os
 import signal
 import subprocess
@@ -25,7 +26,17 @@ class Player:
         self.process = subprocess.Popen(
             command, env={**os.environ, **environment}, stderr=subprocess.PIPE, text=True
         )
-        self.part = "%s.part%d" % (path, self.process.pid)
+        self.folder = os.path.dirname(path) if path else None
+
+    @property
+    def part(self):
+        """The file that it writes, which has no name until it is complete."""
+        files = "/proc/%d/fd" % self.process.pid
+        for name in os.listdir(files):
+            with contextlib.suppress(FileNotFoundError):  # closed meanwhile
+                if os.readlink(os.path.join(files, name)).startswith(self.folder + "/#"):
+                    return os.path.join(files, name)
+        return ""
 
     def end(self):
         self.process.send_signal(signal.SIGINT)
@@ -55,7 +66,7 @@ class ContactSound(unittest.TestCase):
             rospy.delete_param("contact_sound")
 
     def record(self, player, seconds):
-        """Waits until the file, which has a temporary name while it is written, has grown by this much sound."""
+        """Waits until the file has grown by this much sound."""
         wait_for(lambda: os.path.exists(player.part), "the file")
         enough = os.path.getsize(player.part) + 2 * 44100 * seconds
         wait_for(lambda: os.path.getsize(player.part) >= enough, "%g s of sound" % seconds)
