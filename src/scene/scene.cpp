@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <regex>
+#include <set>
+#include <string>
 
 #include "mass.h"
 #include "mesh_file.h"
@@ -49,8 +50,11 @@ Body build_object(const UrdfFile& urdf, const std::optional<RigidTransform>& X_W
 
 /// Refuses an object with the name of a frame that the nodes publish.
 void check_name(const std::string& name, const std::string& where, const std::string& key) {
-  static const std::regex frames("world|workbench|(stylus|head|eye_left|eye_right|fork_handle|fork_tip)(_[0-9]+)?");
-  if (!std::regex_match(name, frames)) return;
+  static const std::set<std::string> frames{"stylus", "head", "eye_left", "eye_right", "fork_handle", "fork_tip"};
+  const std::size_t number = name.find_last_not_of("0123456789") + 1;  // where the digits at the end begin
+  const bool numbered = number < name.size() && number > 0 && name[number - 1] == '_';
+  const std::string unnumbered = numbered ? name.substr(0, number - 1) : name;
+  if (name != "world" && name != "workbench" && frames.count(unnumbered) == 0) return;
   validation::refuse(where, key, name,
                      "a name other than world, workbench, and stylus, head, eye_left, eye_right, fork_handle or "
                      "fork_tip with or without a number, which are frames");
