@@ -3,8 +3,6 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <utility>
 
 #include "constants.h"
 
@@ -19,22 +17,32 @@ struct Decades {
 constexpr Decades times{-5.0, -1.0};    // [s]
 constexpr Decades errors{-13.0, -3.0};  // [m]
 
+std::pair<int, int> cell_of(double wall_time, double error) {
+  return {std::lround(plot_cells * times.place(wall_time)), std::lround(plot_cells * errors.place(error))};
+}
+
 }  // namespace
 
 ErrorPlot::ErrorPlot(QWidget* parent) : QWidget(parent) {
   setMinimumHeight(90);
-  setToolTip("error estimate against run time of the cycles of the last ten seconds");
+  setToolTip(
+      "all cycles so far, over their run time: error estimate (blue), bound on the error since the grasp (amber)");
 }
 
-void ErrorPlot::add(double now, double wall_time, double error) {
-  if (wall_time > 0.0 && std::isfinite(wall_time) && error > 0.0 && std::isfinite(error)) {
-    points_.push_back({now, wall_time, error});
-  }
+void ErrorPlot::add(double now, double wall_time, double error, double bound) {
+  const auto plotted = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (!plotted(wall_time)) return;
+  if (plotted(error)) estimates_[cell_of(wall_time, error)] = now;
+  if (plotted(bound)) bounds_[cell_of(wall_time, bound)] = now;
+}
+
+void ErrorPlot::clear() {
+  estimates_.clear();
+  bounds_.clear();
 }
 
 void ErrorPlot::refresh(double now) {
   now_ = now;
-  while (!points_.empty() && points_.front().t < now - plot_duration) points_.pop_front();
   update();
 }
 
@@ -66,14 +74,15 @@ void ErrorPlot::paintEvent(QPaintEvent*) {
   painter.drawText(at(0.5, 0.0) + QPointF(-10.0, 13.0), "1 ms");
   painter.drawText(at(1.0, 0.0) + QPointF(-30.0, 13.0), "100 ms");
   painter.setPen(Qt::NoPen);
-  std::set<std::pair<int, int>> painted;  // pixels: of a thousand cycles a second, most lie on newer ones
-  for (auto point = points_.rbegin(); point != points_.rend(); ++point) {
-    const QPointF place = at(times.place(point->wall_time), errors.place(point->error));
-    if (!painted.emplace(qRound(place.x()), qRound(place.y())).second) continue;
-    const double fade = std::clamp(1.0 - (now_ - point->t) / plot_duration, 0.1, 1.0);
-    painter.setBrush(QColor(90, 190, 250, static_cast<int>(255.0 * fade)));
-    painter.drawEllipse(place, 1.5, 1.5);
-  }
+  const auto paint = [&](const Cells& cells, QColor color) {
+    for (const auto& [cell, last] : cells) {
+      color.setAlphaF(std::clamp(1.0 - (now_ - last) / plot_fading, 0.35, 1.0));
+      painter.setBrush(color);
+      painter.drawEllipse(at(cell.first / double(plot_cells), cell.second / double(plot_cells)), 1.5, 1.5);
+    }
+  };
+  paint(estimates_, QColor(90, 190, 250));
+  paint(bounds_, QColor(250, 180, 70));
 }
 
 }  // namespace spring_workbench::rviz_plugin

@@ -1,20 +1,24 @@
 #pragma once
 
 #include <QWidget>
-#include <deque>
+#include <map>
+#include <utility>
 
 namespace spring_workbench::rviz_plugin {
 
-/// Plot of local error estimate [m] against wall time [s] for the cycles of the last seconds, on logarithmic axes;
-/// newer cycles are brighter.
+/// Plot of what cycles cost and how exact they are, for all of the session so far, on logarithmic axes: over the wall
+/// time [s] the local error estimate [m] in blue and, where there is one, the bound on the error since the grasp [m] in
+/// amber. Newer cycles are brighter.
 class ErrorPlot : public QWidget {
   Q_OBJECT
  public:
   explicit ErrorPlot(QWidget* parent = nullptr);
 
   /// Adds a cycle. `now`: time of a monotonic clock [s]. Values that are not positive and finite are not plotted.
-  void add(double now, double wall_time, double error);
-  /// Removes cycles older than a few seconds and redraws.
+  void add(double now, double wall_time, double error, double bound);
+  /// Removes all cycles: another session begins.
+  void clear();
+  /// Redraws at time `now` [s].
   void refresh(double now);
   QSize sizeHint() const override { return {220, 120}; }
 
@@ -22,10 +26,10 @@ class ErrorPlot : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  struct Point {
-    double t, wall_time, error;
-  };
-  std::deque<Point> points_;
+  /// When a cycle fell last into each cell of the plot that one has fallen into [s]; key: column and row, from the
+  /// lower left. However long the session is, there are no more than the plot has cells.
+  using Cells = std::map<std::pair<int, int>, double>;
+  Cells estimates_, bounds_;
   double now_ = 0.0;
 };
 

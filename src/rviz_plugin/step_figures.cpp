@@ -20,9 +20,10 @@ StepFigures::StepFigures(QWidget* parent)
 }
 
 void StepFigures::add(double now, const StepReportConstPtr& steps) {
+  if (!steps_) plot_->clear();
   steps_ = steps;
   if (steps->deadline_missed) ++missed_;
-  plot_->add(now, steps->wall_time, steps->position_error);
+  plot_->add(now, steps->wall_time, steps->position_error, steps->error_bound);
 }
 
 void StepFigures::clear() {

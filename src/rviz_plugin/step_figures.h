@@ -13,13 +13,14 @@ namespace spring_workbench::rviz_plugin {
 
 class ErrorPlot;
 
-/// Cost and accuracy of the steps, from `~steps`: the newest as text, the last seconds as a plot.
+/// Cost and accuracy of the steps, from `~steps`: the newest as text, all of the session so far as a plot.
 class StepFigures : public QWidget {
  public:
   explicit StepFigures(QWidget* parent);
 
   /// `now`: time of a monotonic clock [s].
   void add(double now, const StepReportConstPtr& steps);
+  /// The session is over: the next `add` begins another.
   void clear();
   void refresh(double now);
 
