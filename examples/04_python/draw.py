@@ -60,10 +60,13 @@ def work_precision(scene):
     """integrator -> rows of step [s], run time [s], error of the box's position at the end [m]."""
 
     def run(integrator, step):
-        simulation = simulation_of(scene, integrator, step)
-        started = time.perf_counter()
-        simulation.advance(END)
-        return time.perf_counter() - started, simulation.poses[0, :3, 3]
+        least = np.inf  # of three, since other programs only add to a run time
+        for _ in range(3):
+            simulation = simulation_of(scene, integrator, step)
+            started = time.perf_counter()
+            simulation.advance(END)
+            least = min(least, time.perf_counter() - started)
+        return least, simulation.poses[0, :3, 3]
 
     _, reference = run("exponential", 1e-4)
     table = {}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "spring_workbench/config/yaml_fields.h"
@@ -19,9 +18,12 @@ using validation::between;
 using validation::NumberRule;
 
 /// One key of the settings, with a single rule that checks values from files, parameters, command lines and C++. Refers
-/// to the settings that the table was made for.
+/// to the settings that the table was made for. A check makes no texts.
 struct Field {
-  SettingDescription description;
+  struct About {
+    const char *key, *type, *unit, *meaning;
+  } about;
+  std::function<std::string()> allowed, set;
   std::function<void(const YAML::Node&, const std::string& where)> read;
   std::function<void(const std::string& where)> check;
 };
@@ -35,17 +37,15 @@ const T* given(const std::optional<T>& value) {
   return value ? &*value : nullptr;
 }
 
-std::string text_of(double value) {
-  std::ostringstream out;
-  out << value;
-  return std::isinf(value) ? ".inf" : out.str();
-}
+std::string text_of(double value) { return std::isinf(value) ? ".inf" : validation::number_text(value); }
 
 /// `value`: a number or an optional number; `absent` describes what is used if it is absent.
 template <typename T>
 Field number(const char* key, const char* unit, const NumberRule& rule, const char* meaning, T& value,
              const char* absent = "") {
-  return {{key, "double", unit, rule.text(), given(value) ? text_of(*given(value)) : absent, meaning},
+  return {{key, "double", unit, meaning},
+          [=] { return rule.text(); },
+          [=, &value] { return given(value) ? text_of(*given(value)) : absent; },
           [=, &value](const auto& node, const auto& where) { value = config::read_number(node, where, key, rule); },
           [=, &value](const auto& where) {
             if (given(value)) validation::check_number(where, key, *given(value), rule);
@@ -53,17 +53,21 @@ Field number(const char* key, const char* unit, const NumberRule& rule, const ch
 }
 
 Field integer(const char* key, int min, int max, const char* meaning, int& value) {
-  const std::string allowed = "an integer between " + std::to_string(min) + " and " + std::to_string(max);
+  const auto allowed = [=] { return "an integer between " + std::to_string(min) + " and " + std::to_string(max); };
   return {
-      {key, "int", "–", allowed, std::to_string(value), meaning},
+      {key, "int", "–", meaning},
+      allowed,
+      [&value] { return std::to_string(value); },
       [=, &value](const auto& node, const auto& where) { value = config::read_integer(node, where, key, min, max); },
       [=, &value](const auto& where) {
-        if (value < min || value > max) validation::refuse(where, key, std::to_string(value), allowed);
+        if (value < min || value > max) validation::refuse(where, key, std::to_string(value), allowed());
       }};
 }
 
 Field flag(const char* key, const char* meaning, bool& value) {
-  return {{key, "bool", "–", "true or false", value ? "true" : "false", meaning},
+  return {{key, "bool", "–", meaning},
+          [] { return "true or false"; },
+          [&value] { return value ? "true" : "false"; },
           [=, &value](const auto& node, const auto& where) { value = config::read_bool(node, where, key); },
           [](const auto&) {}};
 }
@@ -72,13 +76,15 @@ Field flag(const char* key, const char* meaning, bool& value) {
 template <typename T>
 Field choice(const char* key, const char* meaning, T& value, const char* absent = "") {
   using E = std::decay_t<decltype(*given(value))>;
-  const std::vector<std::string> names = validation::names<E>();
-  const std::string allowed = "one of " + validation::join(names);
-  const auto index = [&value] { return given(value) ? static_cast<std::size_t>(*given(value)) : 0; };
-  return {{key, "string", "–", allowed, given(value) && index() < names.size() ? names[index()] : absent, meaning},
+  const auto allowed = [] { return "one of " + validation::join(validation::names<E>()); };
+  return {{key, "string", "–", meaning},
+          allowed,
+          [=, &value] { return given(value) ? validation::name_of(*given(value)) : absent; },
           [=, &value](const auto& node, const auto& where) { value = config::read_named<E>(node, where, key); },
-          [=](const auto& where) {
-            if (index() >= names.size()) validation::refuse(where, key, allowed);
+          [=, &value](const auto& where) {
+            const auto known = validation::names<E>().size();
+            if (given(value) && static_cast<std::size_t>(*given(value)) >= known)
+              validation::refuse(where, key, allowed());
           }};
 }
 
@@ -188,15 +194,17 @@ std::vector<Field> grasp_fields(S& s) {
              "what happens when holding an object would need more than limit.force or limit.moment: let_go: the object "
              "is released; slip: the tool keeps pulling with the limit while it slips in the hand",
              s.limit.action),
-      {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
-        "this object is held from the first sample to the last"},
+      {{"grasp.object", "string", "–", "this object is held from the first sample to the last"},
+       [] { return "the name of a movable object of the scene"; },
+       [] { return "none: grasped by button"; },
        [&](const auto& node, const auto& where) {
          object = config::read_string(node, where, "grasp.object");
          s.grasp.object_place = config::place(node, where);
        },
        [](const auto&) {}},  // checked against the scene later
-      {{"grasp.tip_in_object", "double list", "m, –", "x y z qx qy qz qw, the quaternion nonzero",
-        "the pose of the tip at the grasp", "the tip frame in the object's centre-of-mass frame"},
+      {{"grasp.tip_in_object", "double list", "m, –", "the tip frame in the object's centre-of-mass frame"},
+       [] { return "x y z qx qy qz qw, the quaternion nonzero"; },
+       [] { return "the pose of the tip at the grasp"; },
        [&](const auto& node, const auto& where) {
          tip = config::read_pose(node, where, "grasp.tip_in_object");
          s.grasp.tip_place = config::place(node, where);
@@ -243,11 +251,11 @@ void flatten(const YAML::Node& map, const std::string& where, const std::string&
 }
 
 const Field& find_field(const std::vector<Field>& table, const std::string& key, const std::string& where) {
-  const auto is = [&](const Field& field) { return field.description.key == key; };
+  const auto is = [&](const Field& field) { return field.about.key == key; };
   const auto found = std::find_if(table.begin(), table.end(), is);
   if (found != table.end()) return *found;
   std::vector<std::string> known;
-  for (const Field& field : table) known.push_back(field.description.key);
+  for (const Field& field : table) known.push_back(field.about.key);
   throw validation::InputError(
       validation::one_line(validation::prefix(where, key) + validation::unknown_key(key, known)));
 }
@@ -336,7 +344,9 @@ void validate(const ObjectEdit& edit) {
 std::vector<SettingDescription> setting_descriptions() {
   S defaults;
   std::vector<SettingDescription> descriptions;
-  for (const Field& field : fields(defaults)) descriptions.push_back(field.description);
+  for (const Field& f : fields(defaults)) {
+    descriptions.push_back({f.about.key, f.about.type, f.about.unit, f.allowed(), f.set(), f.about.meaning});
+  }
   return descriptions;
 }
 
