@@ -79,6 +79,27 @@ TEST_F(Replay, AHandWithSlowSamplesIsToldWhyItDoesNotMove) {
   EXPECT_EQ(summary_of(moves)["dropouts"].as<int>(), 0);
 }
 
+TEST_F(Replay, WarnsWhenTheIntegratorDidNotTakeTheSteps) {
+  folder_.write("hand.tum", motion_text(lifting_hand()));
+  const std::string command = "--scene box.urdf --motion hand.tum --out run.csv --set integrator=";
+  const Outcome unstable = run(command + "rk4 --set step=0.02");
+  const YAML::Node summary = summary_of(unstable);
+  EXPECT_GT(summary["steps_fallback"].as<int>(), summary["steps"].as<int>() / 100);
+  EXPECT_EQ(unstable.err, "warning: the integrator did not take " + summary["steps_fallback"].as<std::string>() +
+                              " of about " + summary["steps"].as<std::string>() +
+                              " steps, another rule did: decrease step, or choose another\n");
+  EXPECT_EQ(run(command + "exponential --set step=0.02").err, "");
+}
+
+TEST_F(Replay, WarnsOfAHandInMillimetresAndOfOneThatHoldsNothing) {
+  auto samples = lifting_hand();
+  for (Sample& s : samples) s.x *= 1000.0, s.y *= 1000.0, s.z *= 1000.0;
+  folder_.write("hand.tum", motion_text(samples));
+  const Outcome outcome = run("--scene box.urdf --motion hand.tum --out run.csv");
+  EXPECT_NE(outcome.err.find(" samples were rejected: positions are in metres"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: no object was held or probed: "), std::string::npos) << outcome.err;
+}
+
 TEST_F(Replay, StampsInAnotherUnitAreRefused) {
   auto samples = lifting_hand();
   for (Sample& s : samples) s.milliseconds *= 1000000;  // nanoseconds, taken for seconds

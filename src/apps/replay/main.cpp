@@ -102,7 +102,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   for (const live::Entry& entry : journal) {
     replayer.play(entry, [&](simulation::Simulation& simulation, const simulation::AdvanceReport& report) {
       summary.advance.add(report);
-      summary.add_contacts(simulation.contacts());
+      summary.add_state(simulation);
       ++summary.outputs;
       objects.write(object_rows(simulation.time(), simulation));
       fork.write(fork_rows.at(simulation.time(), simulation, {}));
@@ -170,7 +170,7 @@ Summary run(const Options& options) {
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
     summary.advance.add(feed.advance_to(t));
-    summary.add_contacts(simulation.contacts());
+    summary.add_state(simulation);
     objects.write(object_rows(t, simulation));
     fork.write(fork_rows.at(t, simulation, motions));
   }
@@ -194,5 +194,9 @@ int main(int argc, char** argv) {
   using namespace spring_workbench;
   return config::run_program(
       "replay", replay::help_text(), [&] { return replay::parse_options(argc, argv); },
-      [](const replay::Options& options) { std::cout << replay::run(options).json() << std::endl; });
+      [](const replay::Options& options) {
+        const replay::Summary summary = replay::run(options);
+        for (const std::string& warning : summary.warnings()) std::cerr << "warning: " << warning << "\n";
+        std::cout << summary.json() << std::endl;
+      });
 }

@@ -4,6 +4,7 @@
 #include <locale>
 #include <sstream>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::replay {
@@ -41,21 +42,43 @@ void Summary::add(const hand_input::ReacquisitionCounts& of_hand) {
   hand.losses += of_hand.losses;
 }
 
-void Summary::add_contacts(const std::vector<contact::ContactState>& contacts) {
+void Summary::add_state(const simulation::Simulation& simulation) {
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
+    const tools::ToolState tool = simulation.tool(hand);
+    held_ = held_ || !tool.held_object.empty() || !tool.touched.empty();
+  }
   std::set<Pair> now;
-  for (const contact::ContactState& contact : contacts) {
+  for (const contact::ContactState& contact : simulation.contacts()) {
     if (contact.phase != contact::ContactPhase::ended) now.emplace(contact.object, contact.other);
   }
   for (const Pair& pair : now) contacts_ += touching_.count(pair) == 0 ? 1 : 0;
   touching_ = now;
 }
 
+std::size_t Summary::samples_rejected() const {
+  std::size_t sum = 0;
+  for (const auto& [result, count] : gate.rejected) sum += count;
+  return sum;
+}
+
+std::vector<std::string> Summary::warnings() const {
+  std::vector<std::string> found;
+  if (2 * samples_rejected() > samples) {
+    found.push_back(std::to_string(samples_rejected()) + " of " + std::to_string(samples) +
+                    " samples were rejected: positions are in metres, times in seconds, limits in input.*");
+  }
+  if (advance.steps_fallback * fallback_share > static_cast<double>(advance.steps)) {
+    found.push_back("the integrator did not take " + std::to_string(advance.steps_fallback) + " of about " +
+                    std::to_string(advance.steps) + " steps, another rule did: decrease step, or choose another");
+  }
+  if (!held_) found.push_back("no object was held or probed: grasp with the button, or name one in grasp.object");
+  return found;
+}
+
 std::string Summary::json() const {
   std::vector<std::string> rejected;
-  std::size_t samples_rejected = 0;
   for (const auto& [result, count] : gate.rejected) {
     rejected.push_back(quoted(hand_input::to_string(result)) + ": " + std::to_string(count));
-    samples_rejected += count;
   }
   const auto bound = [](const std::optional<double>& b) { return b ? number(*b) : "null"; };
   std::ostringstream out;
@@ -63,10 +86,10 @@ std::string Summary::json() const {
   out << "{\"steps\": " << advance.steps << ", \"simulated_time\": " << number(advance.simulated_time)
       << ", \"wall_time\": " << number(wall_time)
       << ", \"time_per_step\": " << number(advance.steps > 0 ? wall_time / static_cast<double>(advance.steps) : 0.0)
-      << ", \"outputs\": " << outputs << ", \"samples\": " << samples << ", \"samples_rejected\": " << samples_rejected
-      << ", \"rejected\": {" << validation::join(rejected) << "}, \"dropouts\": " << gate.dropouts
-      << ", \"reacquisitions\": " << hand.reacquisitions << ", \"losses\": " << hand.losses
-      << ", \"position_error\": " << number(advance.position_error)
+      << ", \"outputs\": " << outputs << ", \"samples\": " << samples
+      << ", \"samples_rejected\": " << samples_rejected() << ", \"rejected\": {" << validation::join(rejected)
+      << "}, \"dropouts\": " << gate.dropouts << ", \"reacquisitions\": " << hand.reacquisitions
+      << ", \"losses\": " << hand.losses << ", \"position_error\": " << number(advance.position_error)
       << ", \"angle_error\": " << number(advance.angle_error) << ", \"error_bound\": " << bound(advance.error_bound)
       << ", \"angle_error_bound\": " << bound(advance.angle_error_bound)
       << ", \"local_error_bound\": " << bound(advance.local_error_bound)

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/live/journal.h"
@@ -23,15 +24,22 @@ class Summary {
 
   void add(const hand_input::GateCounts& of_hand);
   void add(const hand_input::ReacquisitionCounts& of_hand);
-  /// Counts the pairs in contact that were not in contact at the previous call.
-  void add_contacts(const std::vector<contact::ContactState>& contacts);
+  /// Counts the pairs in contact that were not in contact at the previous call; notes whether an object is held
+  /// or probed.
+  void add_state(const simulation::Simulation& simulation);
+  /// What most likely is not what the user wanted, a line each: most samples rejected, steps that the integrator did
+  /// not take, nothing held.
+  std::vector<std::string> warnings() const;
   /// One line of JSON, as described by `help_text()`.
   std::string json() const;
 
  private:
   using Pair = std::pair<std::string, std::string>;
 
+  std::size_t samples_rejected() const;
+
   int contacts_ = 0;
+  bool held_ = false;  ///< whether an object was held or probed at an output time
   std::set<Pair> touching_;
 };
 
