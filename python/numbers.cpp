@@ -35,7 +35,7 @@ RigidTransform to_pose(const Array& matrix, const std::string& what) {
   }
   if (!m.allFinite()) refuse("NaN or infinity");
   const Matrix3d R = m.topLeftCorner<3, 3>();
-  if (!(R.transpose() * R).isIdentity(1e-6) || R.determinant() < 0.0) refuse("a matrix without a rotation");
+  if (!(R.transpose() * R).isIdentity(1e-6) || R.determinant() < 0.0) refuse("a matrix that scales, shears or mirrors");
   if (m.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) refuse("a matrix with another last row");
   RigidTransform X = RigidTransform::Identity();
   X.matrix() = m;

@@ -151,12 +151,12 @@ void bind_report(py::module& module) {
       .def_readonly("stops", &AdvanceReport::stops,
                     "Number of steps that met the end of the fork's range (fully compressed or wound up).")
       .def_readonly("steps_fallback", &AdvanceReport::steps_fallback,
-                    "Number of steps taken by an L-stable rule because the integrator's equation was not solved.")
+                    "Number of integrations by an L-stable rule, since the integrator's own equation was not solved.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
                     "Number of steps in which contact did not allow an object to move.")
-      .def_readonly(
-          "steps_unsolved", &AdvanceReport::steps_unsolved,
-          "Number of steps near other movable objects that were accepted although a contact violated its law.")
+      .def_readonly("steps_unsolved", &AdvanceReport::steps_unsolved,
+                    "Number of steps or parts of one, near other movable objects, accepted although a contact missed "
+                    "its law by 1 um.")
       .def_readonly("time_lost", &AdvanceReport::time_lost,
                     "Time during which a body did not follow its equation of motion [s].")
       .def_readonly("steps_rejected", &AdvanceReport::steps_rejected,

@@ -263,13 +263,13 @@ class AdvanceReport:
         """Number of steps that met the end of the fork's range (fully compressed or wound up)."""
     @property
     def steps_fallback(self) -> int:
-        """Number of steps taken by an L-stable rule because the integrator's equation was not solved."""
+        """Number of integrations by an L-stable rule, since the integrator's own equation was not solved."""
     @property
     def steps_blocked(self) -> int:
         """Number of steps in which contact did not allow an object to move."""
     @property
     def steps_unsolved(self) -> int:
-        """Number of steps near other movable objects that were accepted although a contact violated its law."""
+        """Number of steps or parts of one, near other movable objects, accepted although a contact missed its law by 1 um."""
     @property
     def time_lost(self) -> float:
         """Time during which a body did not follow its equation of motion [s]."""

@@ -127,7 +127,7 @@ struct Simulation::Impl {
   }
   Hand& hand(std::size_t index) {
     if (index < hands.size()) return hands[index];
-    validation::refuse("", "hand", std::to_string(index), "a number < " + std::to_string(hands.size()));
+    validation::refuse("", "hand", std::to_string(index), "an integer from 0 to " + std::to_string(hands.size() - 1));
   }
   double in_world(double t) const { return settings.hand_time_scale * t; }
   /// Converts world time to the hand's; exact for the last requested time, so that requesting it again changes nothing.

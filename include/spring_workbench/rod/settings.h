@@ -60,17 +60,17 @@ const std::vector<std::string>& names_of(DampingLaw);
 /// The spring-fork's elastic part (doc/model.md, "The rod").
 struct ForkSettings {
   ShapeKind shape = ShapeKind::linear;   ///< key `shape`
-  double length = 0.2;                   ///< key `fork.length` [m], > 0: rest length L
-  PerDof stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.…` [N/m, N/m, N·m/rad], ≥ 0
+  double length = 0.2;                   ///< key `fork.length` [m], 1e-4 … 1e3: rest length L
+  PerDof stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.…` [N/m, N/m, N·m/rad], 0 … 1e16
   std::optional<double>
-      slope_stiffness;  ///< key `fork.stiffness.slope` [N·m/rad], > 0: for the end slope of the `bushing`,
+      slope_stiffness;  ///< key `fork.stiffness.slope` [N·m/rad], 1e-12 … 1e16: for the end slope of the `bushing`,
                         ///< for a bend stiffness > 0; by default k_bend L² / 3, as for a rod
   PerDof damping_ratio{1.0, 1.0, 1.0};  ///< keys `fork.damping.…`: ζ, 0 … 10; 1 is critical
-  PerDof damping_coefficient;  ///< keys "fork.damping_coefficient.…" [N·s/m, N·s/m, N·m·s/rad], ≥ 0: for the law
+  PerDof damping_coefficient;  ///< keys "fork.damping_coefficient.…" [N·s/m, N·s/m, N·m·s/rad], 0 … 1e12: for the law
                                ///< `coefficients`
   DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` needs one ζ for all DOFs
   ForkDofs dofs;                                 ///< keys `fork.dofs.…`
-  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: T of a DOF that is switched off while
+  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], 1e-6 … 1e3: T of a DOF that is switched off while
                                   ///< strained; from rest its strain falls as (1 + t/T) exp(−t/T): to 1 % in 6.6 T
 
   /// What can be changed while an object is held.

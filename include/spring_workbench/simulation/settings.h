@@ -35,7 +35,7 @@ struct SimulationSettings {
   tools::LimitSettings limit;                 ///< keys `limit.…`
   tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;   ///< key `dropout_after` [s], > 0: silence after which a hand rests
-  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], > 0
+  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10
   int bisection_levels = 8;     ///< key `bisection_levels`, 0 … 30 (paper, section 5); 0: time of impact instead
 };
 

@@ -70,10 +70,10 @@ struct AdvanceReport {
   std::int64_t collision_queries = 0;  ///< queries to the collision library
   std::int64_t substeps = 0;  ///< steps discarded and repeated as shorter ones: equation not solved, or error too large
   int stops = 0;              ///< steps that met the end of the fork's range
-  int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
+  int steps_fallback = 0;     ///< integrations by an L-stable rule, since the integrator's own equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
-  int steps_unsolved = 0;     ///< substeps in which a contact among movable objects broke its law by over 1 µm
+  int steps_unsolved = 0;     ///< (parts of) steps in which a contact among movable objects missed its law by 1 µm
   double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
   int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
   int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time
@@ -114,13 +114,13 @@ class Simulation {
   /// The fork in a hand, with all changes and calibrations since the start.
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
 
-  /// Simulated time [s]; the stamp of the first sample until `advance` is called.
+  /// Simulated time [s]: at first the first sample's stamp, or the `t_end` of the first `advance` if that is earlier.
   double time() const;
   /// Simulated time in world time [s].
   double world_time() const;
 
-  /// Adds a pose of the stylus; its position is scaled by `settings().hand_scale`. Returns false, and ignores the pose,
-  /// if its stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).
+  /// Adds a pose of the stylus, unfiltered; its position is scaled by `settings().hand_scale`. Returns false if its
+  /// stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// Presses or releases a button at the finite time `t` [s]; it acts at the first step that begins at or after `t`.
   void push_edge(double t, motion::ButtonEdge press, std::size_t hand = 0);

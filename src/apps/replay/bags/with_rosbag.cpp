@@ -238,7 +238,8 @@ class BagReader {
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
     validation::refuse(path_, "transform", parent_ + " -> " + child_,
-                       "one in the bag, which has " + (there.empty() ? "none" : validation::join(there)));
+                       "a transform of the bag, by --parent and --child: " +
+                           (there.empty() ? "it has none" : validation::join(there)));
   }
 
   std::string path_, parent_, child_;
