@@ -93,8 +93,8 @@ ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, U
   }
   table.impacts = units.rows<ImpactRow>(number++, "search for the pose of contact",
                                         [&] { return measure_impact_search(quick ? 60 : 500); });
-  table.world_steps =
-      units.rows<WorldStepRow>(number++, "steps of the dynamic world", [&] { return measure_world_steps(quick); });
+  table.motion_steps =
+      units.rows<MotionStepRow>(number++, "steps of motions in contact", [&] { return measure_motion_steps(quick); });
   table.costs =
       units.rows<ContactCost>(number++, "cost of the parts of contact", [] { return measure_contact_costs(); });
   return table;
@@ -127,10 +127,10 @@ std::string impacts_csv(const std::vector<ImpactRow>& rows) {
   return out.str();
 }
 
-std::string world_steps_csv(const std::vector<WorldStepRow>& rows) {
+std::string motion_steps_csv(const std::vector<MotionStepRow>& rows) {
   std::ostringstream out;
   out << "scene,against,step,error_mm,error_percent_of_way,cpu_us_per_simulated_second\n";
-  for (const WorldStepRow& row : rows) {
+  for (const MotionStepRow& row : rows) {
     out << '"' << row.scene << "\"," << row.against << ',' << row.step << ',' << 1e3 * row.error << ','
         << 100.0 * row.error_share << ',' << row.cpu_us_per_simulated_second << '\n';
   }

@@ -6,7 +6,7 @@
 #include "benchmark/contact/contact_costs.h"
 #include "benchmark/contact/drag.h"
 #include "benchmark/contact/impact_search.h"
-#include "benchmark/contact/world_steps.h"
+#include "benchmark/contact/motion_steps.h"
 #include "benchmark/units.h"
 
 namespace spring_workbench::benchmark {
@@ -15,7 +15,7 @@ namespace spring_workbench::benchmark {
 struct ContactTable {
   std::vector<DragRow> drags;
   std::vector<ImpactRow> impacts;
-  std::vector<WorldStepRow> world_steps;
+  std::vector<MotionStepRow> motion_steps;
   std::vector<ContactCost> costs;
 };
 
@@ -26,7 +26,7 @@ std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick)
 
 std::string drags_csv(const std::vector<DragRow>& rows);
 std::string impacts_csv(const std::vector<ImpactRow>& rows);
-std::string world_steps_csv(const std::vector<WorldStepRow>& rows);
+std::string motion_steps_csv(const std::vector<MotionStepRow>& rows);
 std::string contact_costs_csv(const std::vector<ContactCost>& costs);
 
 }  // namespace spring_workbench::benchmark

@@ -90,24 +90,20 @@ scene::Scene scene_of(const Motion& motion, scene::ContactMode contact) {
   return scene;
 }
 
-/// Result of a run: largest distance of a point on the object from its exact position, evaluated every 20 ms.
-struct Ended {
-  double error = 0.0, displacement = 0.0;
-  Measured measured;
-};
-
-Ended run_motion(const Motion& motion, scene::ContactMode contact, double step) {
+MotionRun run(const Motion& motion, scene::ContactMode contact, double step) {
   const scene::Scene scene = scene_of(motion, contact);
   simulation::Simulation s = let_go(scene, step, held, motion.v, motion.w);
   const RigidTransform X0 = s.objects()[0].X_WO;
   const Twist V0 = s.objects()[0].V_WO_W;
   const PairDepth depth(scene);
-  Ended ended;
+  MotionRun ended;
+  ended.duration = motion.duration;
   ended.measured.to_the_end = true;
   for (int i = 1; i * sample_time < motion.duration + 1e-9; ++i) {
     const double begin = processor_time();
     const simulation::AdvanceReport report = s.advance(held + i * sample_time);
     const double spent = processor_time() - begin;
+    ended.processor_time += spent;
     Measured& m = ended.measured;
     m.steps_blocked += report.steps_blocked;
     m.time_lost += report.time_lost;
@@ -133,6 +129,19 @@ Ended run_motion(const Motion& motion, scene::ContactMode contact, double step) 
 
 }  // namespace
 
+std::vector<std::string> motions_in_contact() {
+  std::vector<std::string> names;
+  for (const Motion& motion : motions()) {
+    if (motion.name != "flies") names.push_back(motion.name);
+  }
+  return names;
+}
+
+MotionRun run_motion(const std::string& name, scene::ContactMode contact, double step) {
+  const std::vector<Motion> all = motions();
+  return run(*std::find_if(all.begin(), all.end(), [&](const Motion& m) { return m.name == name; }), contact, step);
+}
+
 void run_motions(bool quick, const TakeRow& take) {
   std::vector<double> steps{0.02, 0.01, 0.005, 0.0025, 0.00125};
   if (quick) steps.resize(2);
@@ -142,7 +151,7 @@ void run_motions(bool quick, const TakeRow& take) {
       TrialRow row{"motion", motion.name, name_of(contact), 0.005, {}, {}};
       double displacement = 0.0;
       for (const double step : steps) {
-        const Ended ended = run_motion(motion, contact, step);
+        const MotionRun ended = run(motion, contact, step);
         errors.push_back(ended.error);
         displacement = ended.displacement;
         if (step == row.step || quick) row.measured = ended.measured;

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "benchmark/contact/drag.h"
-#include "benchmark/contact/world_steps.h"
+#include "benchmark/contact/motion_steps.h"
 #include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::benchmark {

@@ -536,7 +536,7 @@ def contact(table, picture, impacts, steps):
         draw_line(panels[2], line, label=scene_name, color=OURS[i], marker="o")
     log_axes(
         panels[2],
-        title="steps of the dynamic world",
+        title="steps of motions in contact",
         xlabel="processor time [µs per simulated second]",
         ylabel="largest error [mm]",
     )

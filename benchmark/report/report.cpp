@@ -96,7 +96,7 @@ void write_report(Measurements measured, const RunTime& measuring, const RunTime
   keep("fork_curve.csv", fork_curves_csv(measured.fork_curves));
   tables.drags = keep("contact_drag.csv", drags_csv(measured.contact.drags));
   tables.impacts = keep("contact_impact.csv", impacts_csv(measured.contact.impacts));
-  tables.world_steps = keep("contact_steps.csv", world_steps_csv(measured.contact.world_steps));
+  tables.motion_steps = keep("contact_steps.csv", motion_steps_csv(measured.contact.motion_steps));
   keep("contact_costs.csv", contact_costs_csv(measured.contact.costs));
   keep("report_times.csv", unit_times_csv(measured.unit_times));
   page.sections = page_sections(measured, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, folder);

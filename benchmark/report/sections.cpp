@@ -178,22 +178,21 @@ PageSection contact_section(const ContactTable& contact, const Tables& tables, c
       "plane as it "
       "turns, 40 mm and up to 1 rad in a step, against the exact pose of first contact; the levels of bisection halve "
       "the "
-      "0.2 mm in which the sweep found the contact, not the whole step. Steps: the dynamic world against exact "
-      "solutions, "
-      "and a held box that pushes another against a run with small steps; there, near others, no piece is longer than "
-      "2 ms "
-      "whatever the step. Run times are processor time.";
+      "0.2 mm in which the sweep found the contact, not the whole step. Steps: a box that slides and stops, a sphere "
+      "that slips and then rolls, and one that bounces, on the bench with contact stop and on a loose slab with "
+      "dynamic, against exact solutions, and a held box that pushes another against a run with small steps; with "
+      "contact dynamic, near others, no piece is longer than 2 ms whatever the step. Run times are processor time.";
   if (!contact.drags.empty()) {
     section.figures.push_back(figure({"contact",
                                       tables.drags,
                                       "contact.png",
-                                      {tables.impacts, tables.world_steps},
-                                      "Drag, search for the pose of contact, and steps of the dynamic world"},
+                                      {tables.impacts, tables.motion_steps},
+                                      "Drag, search for the pose of contact, and steps of motions in contact"},
                                      folder));
   }
   section.tables.push_back({"Drag", drags_csv(contact.drags), false});
   section.tables.push_back({"Search for the pose of contact", impacts_csv(contact.impacts), false});
-  section.tables.push_back({"Steps of the dynamic world", world_steps_csv(contact.world_steps), false});
+  section.tables.push_back({"Steps of motions in contact", motion_steps_csv(contact.motion_steps), false});
   section.tables.push_back({"What each part of contact costs", contact_costs_csv(contact.costs), false});
   return section;
 }

@@ -10,7 +10,7 @@ namespace spring_workbench::benchmark {
 
 /// Paths of the CSV files from which pictures are drawn.
 struct Tables {
-  std::string scenes, rods, elastica, map, extremes, contact_map, drags, impacts, world_steps;
+  std::string scenes, rods, elastica, map, extremes, contact_map, drags, impacts, motion_steps;
 };
 
 /// The sections of the page except the verdicts, with pictures drawn into `folder`. `elastica_difference`: result of

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "benchmark/contact/impact_search.h"
+#include "benchmark/contact/motion_steps.h"
 #include "benchmark/contact/product_map.h"
-#include "benchmark/contact/world_steps.h"
 #include "benchmark/peers.h"
 
 namespace spring_workbench::benchmark::contact_test {
@@ -92,13 +92,17 @@ TEST(ContactMap, ACellThatMissesOneOfItsBoundsDoesNotHold) {
   EXPECT_FALSE(with([](MapRow& r) { r.times_real = 3.1; }));
 }
 
-TEST(WorldSteps, ErrorsFallWithTheStep) {
-  const std::vector<WorldStepRow> rows = measure_world_steps(true);
+TEST(MotionSteps, EveryMotionStaysNearItsExactRun) {
+  const std::vector<MotionStepRow> rows = measure_motion_steps(true);
   if (rows.empty()) GTEST_SKIP() << "built without Bullet";
-  std::map<std::string, std::vector<double>> errors;
-  for (const WorldStepRow& row : rows) errors[row.scene].push_back(row.error);
-  for (const char* scene : {"box slides and stops", "sphere slips, then rolls", "sphere bounces"}) {
-    EXPECT_LT(errors.at(scene).back(), 0.3 * errors.at(scene).front()) << scene;
+  std::map<std::string, std::vector<double>> shares;
+  for (const MotionStepRow& row : rows) {
+    if (row.against == "exact") shares[row.scene].push_back(row.error_share);
+  }
+  ASSERT_EQ(shares.size(), 6u);  // three motions in two contact modes
+  for (const auto& [scene, share] : shares) {
+    const bool stop = scene.find(", stop") != std::string::npos;
+    EXPECT_LT(*std::max_element(share.begin(), share.end()), stop ? 1e-4 : 0.02) << scene;
   }
 }
 
