@@ -33,12 +33,20 @@ _NAMES = [
 __all__ = _NAMES
 
 
+def _with_fields(value):
+    """The text of a state or report: its class and its fields, as of a dataclass."""
+    fields = [name for name, member in vars(type(value)).items() if isinstance(member, property)]
+    return f"{type(value).__name__}({', '.join(f'{name}={getattr(value, name)!r}' for name in fields)})"
+
+
 def __getattr__(name):
     # Compiled code is loaded with its first use: programs that want only the ROS messages do not wait.
     if name not in _NAMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from . import _core
 
+    for shown in ("AdvanceReport", "ChangeReport", "ContactState", "SettingDescription", "ToolState"):
+        getattr(_core, shown).__repr__ = _with_fields
     globals().update({known: getattr(_core, known) for known in _NAMES})
     return globals()[name]
 

@@ -278,6 +278,13 @@ def test_an_advance_counts_what_happened():
     assert report.local_error_bound is None
 
 
+def test_states_and_reports_show_their_fields():
+    simulation = holding()
+    report, tool = simulation.advance(1.0), simulation.tool()
+    assert repr(report).startswith("AdvanceReport(") and f"steps={report.steps}," in repr(report)
+    assert f"held_object='{tool.held_object}'" in repr(tool) and f"stretch={tool.stretch!r}" in repr(tool)
+
+
 def test_settings_are_those_of_a_file():
     fork = {"length": 0.25, "dofs": {"bend": False}}
     simulation = holding({"fork.stiffness.stretch": np.float64(800.0), "fork": fork})
