@@ -99,7 +99,7 @@ simulation::Simulation make_simulation(const scene::Scene& scene, const simulati
                                        const std::vector<rod::ForkSettings>& forks) {
   simulation::Simulation simulation(scene, settings);
   for (std::size_t hand = 0; hand < forks.size(); ++hand) {
-    simulation::ForkChange change = simulation::change_to(forks[hand]);
+    simulation::ForkChange change = rod::change_to(forks[hand]);
     if (settings.grasp.calibrate == tools::Calibration::world) {
       change.stiffness = {};
     }
