@@ -18,8 +18,10 @@ Places put_to_rest(simulation::Simulation& simulation, double now) {
 std::optional<simulation::Simulation> Undo::prepare(const Command& command,
                                                     const simulation::Simulation& simulation) const {
   if (command.kind == Command::Kind::edit) return simulation.edited(command.edit, command.roots);
-  if (command.kind == Command::Kind::undo) return simulation.edited(last().second);
-  return std::nullopt;
+  if (command.kind != Command::Kind::undo) return std::nullopt;
+  std::optional<simulation::Simulation> next = simulation.edited(last().second), none;
+  if (next) next->go_back_to(last().second, none);
+  return next;
 }
 
 ChangeReport Undo::perform(const Command& command, simulation::Simulation& simulation,

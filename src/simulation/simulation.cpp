@@ -630,10 +630,6 @@ SimulationState Simulation::save() const {
 
 void Simulation::restore(const SimulationState& state) {
   std::optional<Simulation> next = edited(state);
-  take(state, next);
-}
-
-void Simulation::take(const SimulationState& state, std::optional<Simulation>& next) {
   (next ? *next : *this).impl_->restore(state.words_);
   if (next) std::swap(*this, *next);
 }
@@ -641,13 +637,18 @@ void Simulation::take(const SimulationState& state, std::optional<Simulation>& n
 void Simulation::go_back_to(const SimulationState& state, std::optional<Simulation>& next) {
   math::StateArchive input;
   impl_->exchange_input(input);
-  take(state, next);
-  std::map<std::string, RigidTransform> X_WO;
-  for (const bodies::BodyState& object : objects()) X_WO[object.name] = object.X_WO;
-  reset();
+  if (next) {
+    std::swap(*this, *next);
+  } else {
+    impl_->restore(state.words_);
+    std::map<std::string, RigidTransform> X_WO;
+    for (const bodies::BodyState& object : objects()) X_WO[object.name] = object.X_WO;
+    reset();
+    place(X_WO);
+  }
   math::StateArchive kept(input.taken());
   impl_->exchange_input(kept);
-  place(X_WO);
+  impl_->objects.begin(impl_->now);
 }
 
 void Simulation::follow(const Simulation& other) {

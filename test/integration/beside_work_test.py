@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Work next to the hand's: loading, editing and undoing in a scene of large meshes does not disturb the hand; steps that
+"""Work next to the hand: loading, editing and undoing in a scene of large meshes does not disturb the hand; steps that
 take too long lose nothing; the loop has a real-time priority, or reports once why not."""
 import contextlib
 import math
@@ -133,7 +133,7 @@ class BesideWork(unittest.TestCase):
         self.addCleanup(rospy.delete_param, "manipulation/" + parameter)
 
     def test_a_large_scene_is_loaded_and_edited(self):
-        """No gap in what is shown and committed is as long as a dropout, while a large scene is made again and again."""
+        """No gap in what is shown and committed is as long as a dropout while a large scene is made again and again."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         path = write_balls(folder.name)

@@ -212,7 +212,7 @@ class Simulation {
   /// contact mode or fork shape.
   void restore(const SimulationState& state);
   /// Goes back to edits, settings, tools and objects of an earlier state; time and the hands' input (samples, buttons,
-  /// clutch) continue, nothing is held, and the objects are at rest. `next`: from edited(state), as in edit().
+  /// clutch) continue, nothing is held, and the objects are at rest. `next`: as in edit(), but gone back to `state`.
   void go_back_to(const SimulationState& state, std::optional<Simulation>& next);
   /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.
   void follow(const Simulation& other);
@@ -221,7 +221,6 @@ class Simulation {
  private:
   struct Impl;
   explicit Simulation(std::unique_ptr<Impl> impl);
-  void take(const SimulationState& state, std::optional<Simulation>& next);
   std::unique_ptr<Impl> impl_;
 };
 
