@@ -75,9 +75,8 @@ void Checkpoint::resume(const std::string& text, const std::string& where,
     validation::refuse(where, "given_scene", given, "the scene of this start, " + given_scene_);
   const std::string scene = config::read_string(map["scene"], where, "scene");
   const auto state = simulation::parse_state(config::read_string(map["state"], where, "state"));
-  const scene::Scene present =
-      runner_.locked([](const simulation::Simulation& simulation) { return simulation.scene(); });
-  runner_.resume(present.path == scene ? present : scene::load_scene(scene, scene_roots), state);
+  const std::shared_ptr<const scene::Scene> present = runner_.scene();
+  runner_.resume(present->path == scene ? *present : scene::load_scene(scene, scene_roots), state);
 }
 
 CheckpointFile::CheckpointFile(const std::string& path) : path_(std::filesystem::absolute(path).string()) {}

@@ -44,15 +44,14 @@ std::string make(const Command& command, simulation::Simulation& simulation) {
       simulation.reset();
       simulation.place(command.places);
       return "all objects are back at their start poses";
-    case Command::Kind::edit:
-      return simulation.edit(command.edit, command.roots).message;
     case Command::Kind::none:
+    case Command::Kind::edit:
     case Command::Kind::load_scene:
     case Command::Kind::undo:
       break;
   }
   validation::refuse("command", "kind", std::to_string(static_cast<int>(command.kind)),
-                     "a change of the current scene (not none, load_scene or undo)");
+                     "a change within the current scene (not none, edit, load_scene or undo)");
 }
 
 }  // namespace
@@ -89,23 +88,12 @@ ChangeReport perform(const Command& command, simulation::Simulation& simulation)
   return simulation::reported(simulation, [&] { return make(command, simulation); });
 }
 
-std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {
-  std::vector<rod::ForkSettings> forks;
-  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) forks.push_back(simulation.fork_settings(hand));
-  return forks;
-}
-
-simulation::Simulation make_simulation(const scene::Scene& scene, const simulation::SimulationSettings& settings,
-                                       const std::vector<rod::ForkSettings>& forks) {
-  simulation::Simulation simulation(scene, settings);
-  for (std::size_t hand = 0; hand < forks.size(); ++hand) {
-    simulation::ForkChange change = simulation::change_to(forks[hand]);
-    if (settings.grasp.calibrate == tools::Calibration::world) {
-      change.stiffness = {};
-    }
-    simulation.change(change, hand);
+void take_forks(const simulation::Simulation& from, simulation::Simulation& to) {
+  for (std::size_t hand = 0; hand < to.hands(); ++hand) {
+    rod::ForkChange change = rod::change_to(from.fork_settings(hand));
+    if (to.settings().grasp.calibrate == tools::Calibration::world) change.stiffness = {};
+    to.change(change, hand);
   }
-  return simulation;
 }
 
 }  // namespace spring_workbench::live

@@ -125,7 +125,9 @@ bool Replayer::repeat(const Change& change) {
   if (kind == Command::Kind::none || (kind == Command::Kind::undo && undo_.empty())) return false;
   try {
     if (kind == Command::Kind::load_scene) {
-      simulation = make_simulation(load_scene_(change.scene), simulation.settings(), forks_of(simulation));
+      simulation::Simulation next(load_scene_(change.scene), simulation.settings());
+      take_forks(simulation, next);
+      simulation = std::move(next);
       scene_ = change.scene;
       undo_ = Undo();
     } else {

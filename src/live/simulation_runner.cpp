@@ -7,19 +7,27 @@
 #include "constants.h"
 
 namespace spring_workbench::live {
-SimulationRunner::RecordedChange::RecordedChange(SimulationRunner& runner, std::string what, Command command)
-    : runner_(runner), what_(std::move(what)), command_(std::move(command)), committed_(runner.feed_.committed()) {
-  if (runner_.keeps_journal_) hash_before_ = runner_.simulation_.state_hash();
-}
+/// Scope guard around a change of the simulation: its destructor writes the state after the change to the journal.
+class SimulationRunner::RecordedChange {
+ public:
+  RecordedChange(SimulationRunner& runner, const std::string& what, const Command& command)
+      : runner_(runner), committed_(runner.feed_.committed()), change_{what, command, "", 0, {}} {
+    if (runner_.keeps_journal_) change_.hash_before = runner_.simulation_.state_hash();
+  }
+  ~RecordedChange() {
+    ++runner_.revision_;
+    runner_.ahead_.restart();
+    if (!runner_.keeps_journal_) return;
+    change_.scene = runner_.simulation_.scene().path;
+    change_.state = runner_.simulation_.save();
+    runner_.journal_.note(committed_, runner_.stamp(), change_);
+  }
 
-SimulationRunner::RecordedChange::~RecordedChange() {
-  ++runner_.revision_;
-  runner_.ahead_.restart();
-  if (!runner_.keeps_journal_) return;
-  const std::string& scene = runner_.simulation_.scene().path;
-  runner_.journal_.note(committed_, runner_.stamp(),
-                        Change{what_, command_, scene, hash_before_, runner_.simulation_.save()});
-}
+ private:
+  SimulationRunner& runner_;
+  double committed_;
+  Change change_;
+};
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                    const hand_input::InputSettings& input, bool simulated_time, Pace pace)
@@ -32,6 +40,13 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
       pace_(std::move(pace)),
       times_(simulation_.hands(), simulated_time) {
   for (std::size_t hand = 0; hand < simulation_.hands(); ++hand) inputs_.emplace_back(hand, settings.dropout_after);
+}
+
+NextScene::NextScene(std::mutex& changing, const Make& make)
+    : one_at_a_time(changing), committed(make()), shown(committed ? make() : std::nullopt) {
+  if (!committed) return;
+  scene = std::make_shared<const spring_workbench::scene::Scene>(committed->scene());
+  task.emplace(*scene);
 }
 
 void HandInput::add_to(CycleReport& report) {
@@ -123,7 +138,11 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   if (joins(input, epoch)) {
     times_.join(input.hand, epoch.zero);
   } else {
-    restart_with("the hand's time begins", Command::Kind::restart);
+    Command command(Command::Kind::restart);
+    command.places = places_;
+    const RecordedChange noted(*this, "the hand's time begins", command);
+    undo_.perform(command, simulation_);
+    restart_time();
     times_.begin(input.hand, epoch.zero);
   }
   feed_.restart_gate(input.hand);
@@ -162,62 +181,61 @@ void SimulationRunner::push(HandInput& input, StylusWrench wrench, double t) {
   feed_.push_external_wrench(wrench.sample, input.hand);
 }
 
-ChangeReport SimulationRunner::restart_with(const std::string& what, Command::Kind kind) {
-  Command command(kind);
-  command.places = std::exchange(places_, {});
-  const RecordedChange noted(*this, what, command);
-  ChangeReport report = undo_.perform(command, simulation_);
+void SimulationRunner::restart_time() {
+  places_.clear();
   task_.reset();
   feed_.restart();
   ahead_.allow_time_back();
-  return report;
-}
-
-ChangeReport SimulationRunner::restart() {
-  const Lock lock(mutex_);
-  places_.clear();
-  return restart_with("reset", Command::Kind::reset);
 }
 
 ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
-  const Lock lock(mutex_);
-  const RecordedChange noted(*this, what, command);
-  if (!simulated_time_) pace_.changed();
-  ChangeReport report = undo_.perform(command, simulation_);
-  if (command.kind == Command::Kind::undo || command.kind == Command::Kind::edit) scene_changed();
-  return report;
+  NextScene next(changing_, [&] { return undo_.prepare(command, simulation_); });
+  return change_to(next, what, command, [&] {
+    if (!simulated_time_) pace_.changed();
+    ChangeReport report = undo_.perform(command, simulation_, next.committed);
+    if (command.kind == Command::Kind::undo || command.kind == Command::Kind::edit) task_.reset();
+    if (command.kind == Command::Kind::reset) restart_time();
+    return report;
+  });
 }
 
 ChangeReport SimulationRunner::load(const scene::Scene& scene) {
-  const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
-  return begin_with("load_scene", Command(Command::Kind::load_scene), make_simulation(scene, settings, forks),
-                    LookAhead(scene, settings), {});
+  NextScene next(changing_, [&] { return simulation::Simulation(scene, settings()); });
+  return begin_with(next, "load_scene", Command(Command::Kind::load_scene));
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
-  const simulation::SimulationSettings settings = locked([](const auto& present) { return present.settings(); });
-  simulation::Simulation simulation(scene, settings);
-  simulation.restore(state);
-  Places places = put_to_rest(simulation, simulation.time());
-  begin_with("resume", {}, std::move(simulation), LookAhead(scene, settings), std::move(places));
+  NextScene next(changing_, [&] {
+    simulation::Simulation simulation(scene, settings());
+    simulation.restore(state);
+    return simulation;
+  });
+  next.places = put_to_rest(*next.committed, next.committed->time());
+  begin_with(next, "resume", {});
 }
 
-ChangeReport SimulationRunner::begin_with(const std::string& what, const Command& command,
-                                          simulation::Simulation simulation, LookAhead ahead, Places places) {
-  const Lock lock(mutex_);  // only now, because making the simulations may take long
+ChangeReport SimulationRunner::begin_with(NextScene& next, const std::string& what, const Command& command) {
+  return change_to(next, what, command, [&] {
+    if (command.kind == Command::Kind::load_scene) take_forks(simulation_, *next.committed);
+    ChangeReport report =
+        simulation::reported(simulation_, [&] { return std::swap(simulation_, *next.committed), what; });
+    undo_ = Undo();
+    restart_time();
+    places_ = std::move(next.places);
+    return report;
+  });
+}
+
+ChangeReport SimulationRunner::change_to(NextScene& next, const std::string& what, const Command& command,
+                                         const std::function<ChangeReport()>& perform) {
+  const Lock lock(mutex_);
   const RecordedChange noted(*this, what, command);
-  places_ = std::move(places);
-  undo_ = Undo();
-  const auto report = simulation::reported(simulation_, [&] { return simulation_ = std::move(simulation), what; });
-  ahead_ = std::move(ahead);
-  scene_changed();
-  feed_.restart();
+  ChangeReport report = perform();
+  if (!next.committed) return report;
+  ahead_.change_scene(*next.shown);
+  std::swap(scene_, next.scene);
+  std::swap(task_, *next.task);
   return report;
-}
-
-void SimulationRunner::scene_changed() {
-  scene_ = std::make_shared<const scene::Scene>(simulation_.scene());
-  task_ = assembly::TaskMonitor(*scene_);
 }
 
 void SimulationRunner::keep_journal(bool keep) {

@@ -15,21 +15,35 @@ Places put_to_rest(simulation::Simulation& simulation, double now) {
   return places;
 }
 
-ChangeReport Undo::perform(const Command& command, simulation::Simulation& simulation) {
+std::optional<simulation::Simulation> Undo::prepare(const Command& command,
+                                                    const simulation::Simulation& simulation) const {
+  if (command.kind == Command::Kind::edit) return simulation.edited(command.edit, command.roots);
+  if (command.kind != Command::Kind::undo) return std::nullopt;
+  std::optional<simulation::Simulation> next = simulation.edited(last().second), none;
+  if (next) next->go_back_to(last().second, none);
+  return next;
+}
+
+ChangeReport Undo::perform(const Command& command, simulation::Simulation& simulation,
+                           std::optional<simulation::Simulation>& next) {
   if (command.kind == Command::Kind::undo)
-    return simulation::reported(simulation, [&] { return take_back(simulation); });
-  const bool reset = command.kind == Command::Kind::reset;
-  if (!reset && command.kind != Command::Kind::edit) return live::perform(command, simulation);
+    return simulation::reported(simulation, [&] { return take_back(simulation, next); });
+  const bool edit = command.kind == Command::Kind::edit;
+  if (!edit && command.kind != Command::Kind::reset) return live::perform(command, simulation);
   simulation::SimulationState before = simulation.save();
-  ChangeReport report = live::perform(command, simulation);
-  before_.emplace_back(reset ? "reset" : report.message, std::move(before));
+  ChangeReport report = edit ? simulation.edit(command.edit, next) : live::perform(command, simulation);
+  before_.emplace_back(edit ? report.message : "reset", std::move(before));
   if (before_.size() > max_undo_steps) before_.pop_front();
   return report;
 }
 
-std::string Undo::take_back(simulation::Simulation& simulation) {
+const Undo::Before& Undo::last() const {
   if (before_.empty()) throw validation::InputError("nothing was edited or reset since the scene was loaded");
-  simulation.go_back_to(before_.back().second);
+  return before_.back();
+}
+
+std::string Undo::take_back(simulation::Simulation& simulation, std::optional<simulation::Simulation>& next) {
+  simulation.go_back_to(last().second, next);
   std::string undone = std::move(before_.back().first);
   before_.pop_back();
   return undone;

@@ -4,6 +4,17 @@
 
 namespace spring_workbench::live {
 
+spring_workbench::scene::Scene View::present_scene() const {
+  auto present = *scene;
+  auto object = objects.begin();
+  for (auto& body : present.bodies) {
+    if (!body.movable) continue;
+    body.X_WO = object->X_WO;
+    ++object;
+  }
+  return present;
+}
+
 View view_of(const simulation::Simulation& simulation, std::shared_ptr<const scene::Scene> scene,
              SharedStates& objects) {
   objects.follow(simulation);

@@ -19,4 +19,31 @@ double stretch_damping(const ForkSettings& fork, double mass) {
   return 2.0 * fork.damping_ratio.stretch * std::sqrt(mass * fork.stiffness.stretch);
 }
 
+bool ForkChange::changes_springs() const {
+  return !stiffness.empty() || !damping_ratio.empty() || !damping_coefficient.empty() || damping_law ||
+         !damping.empty();
+}
+
+ForkSettings ForkChange::applied_to(ForkSettings fork) const {
+  fork.dofs = dofs.applied_to(fork.dofs);
+  fork.stiffness = stiffness.applied_to(fork.stiffness);
+  fork.damping_ratio = damping_ratio.applied_to(fork.damping_ratio);
+  fork.damping_coefficient = damping_coefficient.applied_to(fork.damping_coefficient);
+  fork.damping_law = damping_law.value_or(fork.damping_law);
+  fork.damping() = damping.applied_to(fork.damping());
+  const bool one_per_dof = !damping.empty() && !damping_law && !fork.damping_ratio.uniform();
+  if (one_per_dof && fork.damping_law == DampingLaw::modal) fork.damping_law = DampingLaw::per_dof;
+  return fork;
+}
+
+ForkChange change_to(const ForkSettings& fork) {
+  const auto all = [](const PerDof& v) { return PerDofChange<double>{v.stretch, v.bend, v.torsion}; };
+  return {{fork.dofs.stretch, fork.dofs.bend, fork.dofs.torsion},
+          all(fork.stiffness),
+          all(fork.damping_ratio),
+          all(fork.damping_coefficient),
+          fork.damping_law,
+          {}};
+}
+
 }  // namespace spring_workbench::rod

@@ -288,33 +288,6 @@ void validate(const SimulationSettings& settings, const std::string& where) {
   check_together(settings, where);
 }
 
-bool ForkChange::changes_springs() const {
-  return !stiffness.empty() || !damping_ratio.empty() || !damping_coefficient.empty() || damping_law ||
-         !damping.empty();
-}
-
-rod::ForkSettings ForkChange::applied_to(rod::ForkSettings fork) const {
-  fork.dofs = dofs.applied_to(fork.dofs);
-  fork.stiffness = stiffness.applied_to(fork.stiffness);
-  fork.damping_ratio = damping_ratio.applied_to(fork.damping_ratio);
-  fork.damping_coefficient = damping_coefficient.applied_to(fork.damping_coefficient);
-  fork.damping_law = damping_law.value_or(fork.damping_law);
-  fork.damping() = damping.applied_to(fork.damping());
-  const bool one_per_dof = !damping.empty() && !damping_law && !fork.damping_ratio.uniform();
-  if (one_per_dof && fork.damping_law == rod::DampingLaw::modal) fork.damping_law = rod::DampingLaw::per_dof;
-  return fork;
-}
-
-ForkChange change_to(const rod::ForkSettings& fork) {
-  const auto all = [](const rod::PerDof& v) { return rod::PerDofChange<double>{v.stretch, v.bend, v.torsion}; };
-  return {{fork.dofs.stretch, fork.dofs.bend, fork.dofs.torsion},
-          all(fork.stiffness),
-          all(fork.damping_ratio),
-          all(fork.damping_coefficient),
-          fork.damping_law,
-          {}};
-}
-
 dynamics::DynamicsSettings DynamicsChange::applied_to(dynamics::DynamicsSettings dynamics) const {
   dynamics.integrator = integrator.value_or(dynamics.integrator);
   dynamics.step = step.value_or(dynamics.step);

@@ -45,9 +45,9 @@ void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bo
 
 /// Appends an edit and drops those that it supersedes.
 std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& edit) {
-  bool was_added = false;
+  bool was_added = edit.action == Action::move;  // which changes no scene
   const auto superfluous = [&](const ObjectEdit& other) {
-    const bool goes = other.name == edit.name && other.action != Action::remove &&
+    const bool goes = other.name == edit.name && other.action != Action::remove && edit.action != Action::add &&
                       (edit.action == Action::remove || other.action == edit.action);
     was_added |= goes && other.action == Action::add;
     return goes;
@@ -101,7 +101,7 @@ void check_origin(const std::string& saved, const std::string& present) {
 struct Simulation::Impl {
   const scene::Scene given_scene;
   const SimulationSettings given_settings;
-  std::vector<ObjectEdit> edits;  ///< edits of the given scene
+  const std::vector<ObjectEdit> edits;  ///< edits of the given scene
   SimulationSettings settings;
   const scene::Scene scene;
   const std::string origin;        ///< origin that its states carry
@@ -112,11 +112,11 @@ struct Simulation::Impl {
   double now = 0.0;             ///< world time, like all times in this class
   double requested_time = 0.0;  ///< the last requested time, in the hand's time
 
-  Impl(const scene::Scene& s, const SimulationSettings& set, std::vector<ObjectEdit> edited = {},
+  Impl(const scene::Scene& s, const SimulationSettings& set, const std::vector<ObjectEdit>& edited = {},
        const std::vector<std::string>& roots = {})
       : given_scene(s),
         given_settings(set),
-        edits(std::move(edited)),
+        edits(edited),
         settings(set),
         scene(set_up(s, set, edits, roots)),
         origin(origin_of(s, scene.contact, set)),
@@ -182,6 +182,12 @@ struct Simulation::Impl {
   /// Saves or restores the state. `some`: only these objects; null: all.
   void exchange(math::StateArchive& state, const std::vector<std::size_t>* some = nullptr);
   void set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some = nullptr);
+  /// The same; throws InputError, and changes nothing, if they are not a state.
+  void restore(const math::StateArchive::Words& words);
+  /// Saves or restores time and the hands' input.
+  void exchange_input(math::StateArchive& state);
+  /// The given scene with these edits; nothing if they are the present ones.
+  std::optional<Simulation> edited(const std::vector<ObjectEdit>& next, const std::vector<std::string>& roots) const;
   void move(const ObjectEdit& edit);
   /// Takes over the state of `before`, whose scene differs only by `edit`.
   void continue_from(Impl& before, const ObjectEdit& edit);
@@ -371,8 +377,10 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
 }
 
 void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std::size_t>* some) {
-  state(edits, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
+  std::vector<ObjectEdit> same = edits;
+  state(same, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
         settings.dynamics.error_bound);
+  if (!(same == edits)) throw std::out_of_range("of another scene");
   objects::Objects::Archive of_objects(objects);
   some != nullptr ? of_objects.exchange(state, *some) : of_objects.exchange(state);
   for (Hand& hand : hands) hand.exchange(state, now);
@@ -382,6 +390,22 @@ void Simulation::Impl::set(const math::StateArchive::Words& words, const std::ve
   math::StateArchive state(words);
   exchange(state, some);
   if (!state.at_end()) throw std::out_of_range("data left over at the end");
+}
+
+void Simulation::Impl::exchange_input(math::StateArchive& state) {
+  state(now, requested_time, started);
+  for (Hand& hand : hands) state(hand.stylus());
+}
+
+void Simulation::Impl::restore(const math::StateArchive::Words& words) {
+  math::StateArchive present;
+  exchange(present);
+  try {
+    set(words);
+  } catch (const std::exception& error) {
+    set(present.taken());
+    throw validation::InputError(std::string("state: not a saved state: ") + error.what());
+  }
 }
 
 void Simulation::Impl::fill_subsystems(AdvanceReport& report) const {
@@ -399,6 +423,7 @@ void Simulation::Impl::fill_subsystems(AdvanceReport& report) const {
 
 Simulation::Simulation(const scene::Scene& scene, const SimulationSettings& settings)
     : impl_(std::make_unique<Impl>(scene, settings)) {}
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -558,18 +583,27 @@ void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   }
 }
 
-ChangeReport Simulation::edit(const ObjectEdit& edit, const std::vector<std::string>& roots) {
+std::optional<Simulation> Simulation::Impl::edited(const std::vector<ObjectEdit>& next,
+                                                   const std::vector<std::string>& roots) const {
+  if (next == edits) return std::nullopt;
+  return Simulation(std::make_unique<Impl>(given_scene, given_settings, next, roots));
+}
+
+std::optional<Simulation> Simulation::edited(const ObjectEdit& edit, const std::vector<std::string>& roots) const {
   validate(edit);
+  return impl_->edited(with(impl_->edits, edit), roots);
+}
+
+std::optional<Simulation> Simulation::edited(const SimulationState& state) const {
+  check_origin(state.origin_, impl_->origin);
+  return impl_->edited(state.edits(), {});
+}
+
+ChangeReport Simulation::edit(const ObjectEdit& edit, std::optional<Simulation>& next) {
   return reported(*this, [&] {
-    if (edit.action == Action::move) {
-      impl_->move(edit);
-    } else {
-      scene::Scene edited = impl_->scene;  // throws here if the edit does not match the scene
-      make_edit(edit, roots, impl_->settings.massless, edited);
-      auto next = std::make_unique<Impl>(impl_->given_scene, impl_->given_settings, with(impl_->edits, edit), roots);
-      next->continue_from(*impl_, edit);
-      impl_ = std::move(next);
-    }
+    if (edit.action == Action::move) impl_->move(edit);
+    if (next) next->impl_->continue_from(*impl_, edit);
+    if (next) std::swap(*this, *next);
     return validation::name_of(edit.action) + ": " + edit.name;
   });
 }
@@ -595,36 +629,26 @@ SimulationState Simulation::save() const {
 }
 
 void Simulation::restore(const SimulationState& state) {
-  const SimulationState present = save();
-  check_origin(state.origin_, present.origin_);
-  try {
-    std::vector<ObjectEdit> edits;
-    math::StateArchive head(state.words_);
-    head(edits);
-    if (edits == impl_->edits) return impl_->set(state.words_);
-    auto edited = std::make_unique<Impl>(impl_->given_scene, impl_->given_settings, edits);
-    edited->set(state.words_);
-    impl_ = std::move(edited);
-  } catch (const std::exception& error) {
-    impl_->set(present.words_);
-    throw validation::InputError(std::string("state: not a saved state: ") + error.what());
-  }
+  std::optional<Simulation> next = edited(state);
+  (next ? *next : *this).impl_->restore(state.words_);
+  if (next) std::swap(*this, *next);
 }
 
-void Simulation::go_back_to(const SimulationState& state) {
-  const auto exchange_kept = [this](math::StateArchive& kept) {
-    kept(impl_->now, impl_->requested_time, impl_->started);
-    for (Hand& hand : impl_->hands) kept(hand.stylus());
-  };
-  math::StateArchive present;
-  exchange_kept(present);
-  restore(state);
-  std::map<std::string, RigidTransform> X_WO;
-  for (const bodies::BodyState& object : objects()) X_WO[object.name] = object.X_WO;
-  reset();
-  math::StateArchive kept(present.taken());
-  exchange_kept(kept);
-  place(X_WO);
+void Simulation::go_back_to(const SimulationState& state, std::optional<Simulation>& next) {
+  math::StateArchive input;
+  impl_->exchange_input(input);
+  if (next) {
+    std::swap(*this, *next);
+  } else {
+    impl_->restore(state.words_);
+    std::map<std::string, RigidTransform> X_WO;
+    for (const bodies::BodyState& object : objects()) X_WO[object.name] = object.X_WO;
+    reset();
+    place(X_WO);
+  }
+  math::StateArchive kept(input.taken());
+  impl_->exchange_input(kept);
+  impl_->objects.begin(impl_->now);
 }
 
 void Simulation::follow(const Simulation& other) {

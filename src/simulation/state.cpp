@@ -25,6 +25,17 @@ std::string to_hex(std::uint64_t hash) {
   return text;
 }
 
+std::vector<ObjectEdit> SimulationState::edits() const {
+  std::vector<ObjectEdit> edits;
+  try {
+    math::StateArchive head(words_);
+    head(edits);
+  } catch (const std::exception& error) {
+    throw validation::InputError(std::string("state: not a saved state: ") + error.what());
+  }
+  return edits;
+}
+
 std::string serialise(const SimulationState& state) {
   std::string numbers;
   numbers.reserve(word_digits * state.words_.size());

@@ -53,16 +53,12 @@ struct Command {
   void exchange(math::StateArchive& state);
 };
 
-/// Makes a change of any kind except `none`, `load_scene` and `undo`. Throws InputError, and changes nothing, if it is
-/// impossible.
+/// Makes a change of any kind except `none`, `edit`, `load_scene` and `undo`. Throws InputError, and changes nothing,
+/// if it is impossible.
 ChangeReport perform(const Command& command, simulation::Simulation& simulation);
 
-/// Returns the fork settings of each hand.
-std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation);
-
-/// Makes a simulation of a scene in which each hand has its fork from `forks`; forks that are calibrated to the world
-/// get the scene's stiffness. Throws InputError if settings and scene do not match.
-simulation::Simulation make_simulation(const scene::Scene& scene, const simulation::SimulationSettings& settings,
-                                       const std::vector<rod::ForkSettings>& forks);
+/// Gives the hands of `to`, a simulation of another scene, the forks of the hands of `from`; forks that are calibrated
+/// to the world keep the scene's stiffness.
+void take_forks(const simulation::Simulation& from, simulation::Simulation& to);
 
 }  // namespace spring_workbench::live

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "spring_workbench/hand_input/feed.h"
@@ -56,6 +57,8 @@ class LookAhead {
   void input_changed() { up_to_date_ = false; }
   /// Forgets the displayed poses, because the committed simulation was changed.
   void restart();
+  /// Continues in `copy`, a simulation of the committed one's new scene; afterwards `copy` is the one before.
+  void change_scene(simulation::Simulation& copy) { std::swap(copy_, copy); }
   /// Allows the displayed time to go back, because time has restarted.
   void allow_time_back() {
     shown_until_ = -std::numeric_limits<double>::infinity();

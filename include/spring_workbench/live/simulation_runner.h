@@ -92,6 +92,22 @@ struct HandInput {
   std::vector<RejectedPose> rejected;  ///< not reported yet
 };
 
+/// The scene that a change leads to: the committed and the displayed simulation of it, which are made without the lock
+/// of the runner, because that may take long. After the change this is what was before, and is destroyed without the
+/// lock.
+struct NextScene {
+  using Make = std::function<std::optional<simulation::Simulation>()>;
+  /// `changing`: held as long as this exists, so that there is one change at a time. `make`: makes one of the two
+  /// simulations, or nothing if the scene stays.
+  NextScene(std::mutex& changing, const Make& make);
+
+  std::lock_guard<std::mutex> one_at_a_time;
+  std::optional<simulation::Simulation> committed, shown;
+  std::shared_ptr<const scene::Scene> scene;
+  std::optional<assembly::TaskMonitor> task;
+  Places places;  ///< poses that the objects keep in the first epoch
+};
+
 /// Runs a live simulation. It owns the committed simulation and its feed, the lock that physics, services and
 /// publishers share, the displayed copy, the journal, and the epochs of the hands' clocks (times count from the epoch
 /// of the first stylus; other styluses join it). Time is skipped if no sample arrives because the process was stopped,
@@ -117,7 +133,7 @@ class SimulationRunner {
   std::optional<Committed> committed(const Wanted& wanted) const;
 
   /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
-  ChangeReport restart();
+  ChangeReport restart() { return change("reset", Command(Command::Kind::reset)); }
   /// Undoes the last edit or restart (class Undo). The task restarts, as after an edit.
   ChangeReport undo() { return change("undo", Command(Command::Kind::undo)); }
   /// Loads another scene with the current settings. Throws InputError, and keeps the old scene, if they do not match.
@@ -160,19 +176,7 @@ class SimulationRunner {
 
  private:
   using Lock = std::lock_guard<FairMutex>;
-  /// Scope guard around a change of the simulation: its destructor writes the state after the change to the journal.
-  class RecordedChange {
-   public:
-    RecordedChange(SimulationRunner& runner, std::string what, Command command);
-    ~RecordedChange();
-
-   private:
-    SimulationRunner& runner_;
-    std::string what_;
-    Command command_;
-    std::uint64_t hash_before_ = 0;
-    double committed_;
-  };
+  class RecordedChange;
   void apply(HandInput& input, const NewEpoch& epoch);
   void apply(HandInput& input, const StylusPose& pose);
   void apply(HandInput& input, const StylusButton& button);
@@ -186,11 +190,16 @@ class SimulationRunner {
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
   std::optional<std::int64_t> stamp() const;
-  ChangeReport restart_with(const std::string& what, Command::Kind kind);
-  ChangeReport begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
-                          LookAhead ahead, Places places);
-  void scene_changed();
+  void restart_time();
+  /// Makes a change by `perform`, and continues in the next scene, if there is one.
+  ChangeReport change_to(NextScene& next, const std::string& what, const Command& command,
+                         const std::function<ChangeReport()>& perform);
+  ChangeReport begin_with(NextScene& next, const std::string& what, const Command& command);
+  simulation::SimulationSettings settings() const {
+    return locked([](const auto& now) { return now.settings(); });
+  }
 
+  std::mutex changing_;  ///< see NextScene; never locked while mutex_ is held
   mutable FairMutex mutex_;
   simulation::Simulation simulation_;
   hand_input::Feed feed_;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <deque>
-#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,17 +15,27 @@ Places put_to_rest(simulation::Simulation& simulation, double now);
 /// Undo history: the states before the last 20 edits and resets.
 class Undo {
  public:
-  /// Makes a change like live::perform(), and saves the state before an edit or a reset. Kind::undo goes back to
-  /// the last one (Simulation::go_back_to); the report's message names the change that was undone. Throws InputError if
-  /// there is nothing to undo.
-  ChangeReport perform(const Command& command, simulation::Simulation& simulation);
+  /// The simulation in which perform() continues, if it needs another one (Simulation::edited). Takes long, but another
+  /// thread may advance `simulation` meanwhile. Throws as perform().
+  std::optional<simulation::Simulation> prepare(const Command& command, const simulation::Simulation& simulation) const;
+  /// Makes a change like live::perform(), or an edit, and saves the state before an edit or a reset. Kind::undo goes
+  /// back to the last one (Simulation::go_back_to); the report's message names the change that was undone. Throws
+  /// InputError if there is nothing to undo. `next`: from prepare(); afterwards it is the simulation as it was before.
+  ChangeReport perform(const Command& command, simulation::Simulation& simulation,
+                       std::optional<simulation::Simulation>& next);
+  ChangeReport perform(const Command& command, simulation::Simulation& simulation) {
+    std::optional<simulation::Simulation> next = prepare(command, simulation);
+    return perform(command, simulation, next);
+  }
   /// Returns true if there is nothing to undo.
   bool empty() const { return before_.empty(); }
 
  private:
-  std::string take_back(simulation::Simulation& simulation);
+  using Before = std::pair<std::string, simulation::SimulationState>;
+  const Before& last() const;
+  std::string take_back(simulation::Simulation& simulation, std::optional<simulation::Simulation>& next);
 
-  std::deque<std::pair<std::string, simulation::SimulationState>> before_;
+  std::deque<Before> before_;
 };
 
 }  // namespace spring_workbench::live

@@ -25,6 +25,8 @@ struct View {
       if (body.movable) use(objects[object++], body);
     }
   }
+  /// The scene with its objects where they are now, instead of at their start poses.
+  spring_workbench::scene::Scene present_scene() const;
 };
 
 /// Makes a view. `scene`: the simulation's current scene; `objects`: those of the previous view, which are updated.

@@ -82,6 +82,25 @@ struct ForkSettings {
   }
 };
 
+/// A change of the fork while running; absent fields stay as they are.
+struct ForkChange {
+  PerDofChange<bool> dofs;                   ///< true: on; false: rigid
+  PerDofChange<double> stiffness;            ///< [N/m, N/m, N·m/rad]
+  PerDofChange<double> damping_ratio;        ///< –
+  PerDofChange<double> damping_coefficient;  ///< [N·s/m, N·s/m, N·m·s/rad]
+  std::optional<DampingLaw> damping_law;     ///< which of these damping values act
+  PerDofChange<double> damping;  ///< values of the law in force after the change; three different ones turn the
+                                 ///< law `modal`, unless the change asks for it, into `per_dof`
+
+  bool empty() const { return dofs.empty() && !changes_springs(); }
+  bool changes_springs() const;
+  /// Returns the fork with this change.
+  ForkSettings applied_to(ForkSettings fork) const;
+};
+
+/// Returns the change that gives any fork the springs, dampers and DOFs of `fork`; shape and length are not changed.
+ForkChange change_to(const ForkSettings& fork);
+
 /// Coefficient [N·s/m] of the damper in parallel with the fork's stretch spring, for a body of `mass` [kg] that is held
 /// by this fork alone.
 double stretch_damping(const ForkSettings& fork, double mass);

@@ -18,6 +18,8 @@ class Node;
 
 namespace spring_workbench::simulation {
 
+using rod::ForkChange;
+
 /// Settings of a simulation, one field per key. `setting_descriptions()` has type, unit, range and meaning of each key;
 /// parameters, the options of `replay` and doc/reference.md come from it.
 struct SimulationSettings {
@@ -45,25 +47,6 @@ void validate(const SimulationSettings& settings, const std::string& where);
 
 /// Converts a twist in the world to the lengths and time of the hand, for a machine that moves in place of the hand.
 Twist at_hand(const Twist& V_W, const SimulationSettings& settings);
-
-/// A change of the fork while running; absent fields stay as they are.
-struct ForkChange {
-  rod::PerDofChange<bool> dofs;                   ///< true: on; false: rigid
-  rod::PerDofChange<double> stiffness;            ///< [N/m, N/m, N·m/rad]
-  rod::PerDofChange<double> damping_ratio;        ///< –
-  rod::PerDofChange<double> damping_coefficient;  ///< [N·s/m, N·s/m, N·m·s/rad]
-  std::optional<rod::DampingLaw> damping_law;     ///< which of these damping values act
-  rod::PerDofChange<double> damping;  ///< values of the law in force after the change; three different ones turn the
-                                      ///< law `modal`, unless the change asks for it, into `per_dof`
-
-  bool empty() const { return dofs.empty() && !changes_springs(); }
-  bool changes_springs() const;
-  /// Returns the fork with this change.
-  rod::ForkSettings applied_to(rod::ForkSettings fork) const;
-};
-
-/// Returns the change that gives any fork the springs, dampers and DOFs of `fork`; shape and length are not changed.
-ForkChange change_to(const rod::ForkSettings& fork);
 
 /// A change of integrator, step or tolerance; absent fields stay as they are.
 struct DynamicsChange {

@@ -34,6 +34,7 @@ class SimulationState {
 
  private:
   friend class Simulation;
+  std::vector<ObjectEdit> edits() const;  ///< throws InputError if there are none
   friend std::string serialise(const SimulationState& state);
   friend SimulationState parse_state(const std::string& text);
 
@@ -177,7 +178,17 @@ class Simulation {
   /// removed object is released first. A moved object keeps its start pose, to which reset() returns it. The URDF of an
   /// added object is read from `roots` as in load_scene(), and again by restore(). Also throws InputError if a held
   /// object is to be moved, or if an added or moved object would overlap another body by more than 0.1 mm.
-  ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {});
+  ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) {
+    std::optional<Simulation> next = edited(edit, roots);
+    return this->edit(edit, next);
+  }
+  /// Likewise, in little time. `next`: from edited(edit); afterwards it is the simulation as it was before.
+  ChangeReport edit(const ObjectEdit& edit, std::optional<Simulation>& next);
+  /// The edited scene as a simulation at its start; nothing if edit() needs no other. This takes long, but depends only
+  /// on what advance() does not change: another thread may advance this simulation meanwhile. Throws as edit().
+  std::optional<Simulation> edited(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) const;
+  /// Likewise for restore() and go_back_to(): the scene with the edits of `state`. Throws as restore().
+  std::optional<Simulation> edited(const SimulationState& state) const;
   /// Calibrates one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
   /// scene's stiffness. Damping ratios are not changed. Throws InputError if no fork or spring holds an object.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
@@ -201,14 +212,15 @@ class Simulation {
   /// contact mode or fork shape.
   void restore(const SimulationState& state);
   /// Goes back to edits, settings, tools and objects of an earlier state; time and the hands' input (samples, buttons,
-  /// clutch) continue, nothing is held, and the objects are at rest. Throws as restore().
-  void go_back_to(const SimulationState& state);
+  /// clutch) continue, nothing is held, and the objects are at rest. `next`: as in edit(), but gone back to `state`.
+  void go_back_to(const SimulationState& state, std::optional<Simulation>& next);
   /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.
   void follow(const Simulation& other);
   std::uint64_t state_hash() const { return save().hash(); }  ///< hash of save()
 
  private:
   struct Impl;
+  explicit Simulation(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -136,12 +136,7 @@ void edit_object(live::SimulationRunner& runner, const std::vector<std::string>&
 
 void save_scene(live::SimulationRunner& runner, const std::vector<std::string>& roots,
                 const SaveScene::Request& request, SaveScene::Response& response) {
-  const scene::Scene scene = runner.locked([](const simulation::Simulation& s) {
-    scene::Scene now = s.scene();
-    for (const bodies::BodyState& object : s.objects())
-      now.bodies[*scene::find_body(now, object.name)].X_WO = object.X_WO;
-    return now;
-  });
+  const scene::Scene scene = runner.committed([](const live::Moment&) { return true; })->view.present_scene();
   response.message = "wrote " + scene::save_scene(scene, request.path, roots) + " and the YAML file next to it";
 }
 

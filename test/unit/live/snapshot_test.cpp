@@ -121,6 +121,20 @@ TEST(Snapshot, ACopyThatFollowsHasTheWholeState) {
   }
 }
 
+TEST(Snapshot, ThePresentSceneHasTheObjectsWhereTheyAre) {
+  scene::Scene scene = boxes(scene::ContactMode::stop);
+  scene.bodies.insert(scene.bodies.begin() + 1, box("wall", Vector3d(0.1, 2.0, 1.0), 0.0, {2.0, 0.0, 0.5}));
+  SimulationRunner runner(scene, simulation::SimulationSettings(), hand_input::InputSettings(), false);
+  for (int k = 0; k < 100; ++k) runner.cycle(hand(k), {interval * k, interval * k});
+  const View view = runner.committed(always)->view;
+  const scene::Scene present = view.present_scene();
+  ASSERT_EQ(present.bodies.size(), 3u);
+  EXPECT_EQ(present.bodies[1].X_WO.matrix(), scene.bodies[1].X_WO.matrix());
+  for (const bodies::BodyState& object : view.objects)
+    EXPECT_EQ(present.bodies[*scene::find_body(present, object.name)].X_WO.matrix(), object.X_WO.matrix());
+  EXPECT_NE(present.bodies[0].X_WO.matrix(), scene.bodies[0].X_WO.matrix());
+}
+
 TEST(Snapshot, IsMadeWhereItIsWanted) {
   SimulationRunner runner(boxes(scene::ContactMode::none), simulation::SimulationSettings(),
                           hand_input::InputSettings(), false);
