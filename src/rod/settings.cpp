@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "spring_workbench/validation/names.h"
+
 namespace spring_workbench::rod {
 
 const std::vector<std::string>& names_of(ShapeKind) {
@@ -12,6 +14,21 @@ const std::vector<std::string>& names_of(ShapeKind) {
 const std::vector<std::string>& names_of(DampingLaw) {
   static const std::vector<std::string> names = {"per_dof", "modal", "coefficients"};
   return names;
+}
+
+std::string in_words(const ForkSettings& fork) {
+  const auto all = [](const PerDof& v, const std::string& force, const std::string& moment) {
+    return validation::number_text(v.stretch) + force + ", " + validation::number_text(v.bend) + force + ", " +
+           validation::number_text(v.torsion) + moment;
+  };
+  const bool ratios = fork.damping_law != DampingLaw::coefficients;
+  std::vector<std::string> on;
+  if (fork.dofs.stretch) on.push_back("stretch");
+  if (fork.dofs.bend) on.push_back("bend");
+  if (fork.dofs.torsion) on.push_back("torsion");
+  return "stiffness " + all(fork.stiffness, " N/m", " N·m/rad") + "; damping " +
+         all(fork.damping(), ratios ? "" : " N·s/m", ratios ? "" : " N·m·s/rad") + " (" +
+         validation::name_of(fork.damping_law) + "); DOFs on: " + (on.empty() ? "none" : validation::join(on));
 }
 
 double stretch_damping(const ForkSettings& fork, double mass) {

@@ -277,11 +277,6 @@ void check_together(const S& settings, const std::string& where) {
 
 }  // namespace
 
-Twist at_hand(const Twist& V_W, const SimulationSettings& settings) {
-  const double rate = settings.hand_time_scale;
-  return {rate / settings.hand_scale * V_W.linear, rate * V_W.angular};
-}
-
 void validate(const SimulationSettings& settings, const std::string& where) {
   S copy = settings;  // the fields refer to it
   for (const Field& field : fields(copy)) field.check(where);

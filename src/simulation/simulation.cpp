@@ -527,11 +527,10 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
     validate(changed, "");
   }
   return reported(*this, [&] {
-    std::string message = fork.empty() && dynamics.empty() ? "nothing changed" : "set; the strain is unchanged";
+    std::string message = fork.empty() && dynamics.empty() ? "nothing changed" : "set";
     for (Hand* of : impl_->chosen(hand)) {
       const rod::ForkSettings next = fork.applied_to(of->fork());
-      if (next.damping_law != of->fork().damping_law)
-        message = "set; damping law: " + validation::name_of(next.damping_law);
+      if (!fork.empty()) message = "set: " + rod::in_words(next);
       if (next.changeable() != of->fork().changeable()) of->change_fork(fork, message);
     }
     if (dynamics.empty()) return message;

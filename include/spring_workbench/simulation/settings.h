@@ -46,7 +46,9 @@ struct SimulationSettings {
 void validate(const SimulationSettings& settings, const std::string& where);
 
 /// Converts a twist in the world to the lengths and time of the hand, for a machine that moves in place of the hand.
-Twist at_hand(const Twist& V_W, const SimulationSettings& settings);
+inline Twist at_hand(const Twist& V_W, const SimulationSettings& s) {
+  return {s.hand_time_scale / s.hand_scale * V_W.linear, s.hand_time_scale * V_W.angular};
+}
 
 /// A change of integrator, step or tolerance; absent fields stay as they are.
 struct DynamicsChange {

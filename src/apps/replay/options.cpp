@@ -161,10 +161,8 @@ bound), energy_balance [J] (added by integration beyond hand, gravity, damping a
 (pairs, at the output times), collision_queries, substeps (steps discarded and repeated as shorter ones), stops (at
 the end of the fork's range), steps_fallback (integrations by an L-stable rule), steps_blocked (no motion admitted),
 steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by services and panels),
-changes_made_again (repeated, not loaded), changes_mismatched (repeated, with another result), state_hash, active,
-skipped. Warnings on standard error tell of most samples rejected, of steps that another rule took and of a run in which
-nothing was held.
-Exit status: 0 done; 1 failed; 2 bad arguments or input, with one line on standard error.
+changes_made_again (repeated, not loaded), changes_mismatched (with another result), state_hash, active, skipped.
+Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.
 
 Keys (unit; allowed; default): meaning
   rate (Hz; a number between 0.001 and 1e6; 50): output times per second
