@@ -108,7 +108,7 @@ TEST_P(ChangedMeanwhile, ALargeSceneDoesNotStopTheLoop) {
     std::cout << what << ": " << 1e3 * took << " ms, " << meanwhile << " cycles meanwhile, the longest "
               << 1e3 * longest << " ms\n";
     EXPECT_GT(meanwhile, 20) << what;
-    EXPECT_LT(longest, 0.2 * to_make_one) << what;
+    EXPECT_LT(longest, 0.5 * to_make_one) << what;
   };
   std::cout << "to make one simulation: " << 1e3 * to_make_one << " ms\n";
   Command edit(Command::Kind::edit);
