@@ -155,8 +155,8 @@ class Master(unittest.TestCase):
         """The number of samples, and by topic how many of them have a state and the lag that 99 % do not exceed."""
         result = json.loads(" ".join(self.ask("run")))
         for topic, of in result["topics"].items():
-            text = "%s a master, %s: %d samples, %d states; cycles: 50 %%: %d, 99 %%: %d, most: %d; ms: %.2f, %.2f, %.2f"
-            print(text % (how, topic, result["samples"], of["own"], *of["cycles"], *of["ms"]))
+            lags = "cycles: 50 %%: %d, 99 %%: %d, most: %d; ms: %.2f, %.2f, %.2f" % (*of["cycles"], *of["ms"])
+            print("%s a master, %s: %d samples, %d states; %s" % (how, topic, result["samples"], of["own"], lags))
         return result["samples"], {topic: (of["own"], of["cycles"][1]) for topic, of in result["topics"].items()}
 
     def check(self, outage):
