@@ -18,12 +18,6 @@ std::string place_of(const geometry_msgs::TransformStamped& transform) {
   return place(transform.header.frame_id, transform.child_frame_id);
 }
 
-/// Time in which this process did not run [s], in total.
-double unattended_time() {
-  const hand_input::LocalTime now = ros_common::local_time();
-  return now.loop - now.attended;
-}
-
 }  // namespace
 
 StylusInput::StylusInput(const ros::NodeHandle& node, const ManipulationParameters& parameters, std::size_t hand,
@@ -111,7 +105,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
       transform, ros_common::nanoseconds_of(transform.header.stamp), ros_common::wall_moment(),
       [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
       [&](const geometry_msgs::TransformStamped& one, motion::StampResult result, double age) {
-        if (result == motion::StampResult::too_old && was_held_up(age)) return rejections_.count(node_stood_still);
+        if (result == motion::StampResult::held_up) return rejections_.count(motion::to_string(result));
         reject_stamp(one, motion::to_string(result), age);
       });
   if (const double host_set = wall_poses_.take_host_steps(); host_set != 0.0)
@@ -148,15 +142,8 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
   }
   const hand_input::RawSample sample = raw_sample(transform.transform, seconds(stamp));
   events_.put(live::StylusPose{sample, parent, *X_WP, ros_common::local_time(), age});
-  unattended_ = unattended_time();
   wake_();
   return true;
-}
-
-/// Whether a pose of this age [s] is too old only because this process was stopped since the newest queued one. That
-/// the time is skipped is logged anyway.
-bool StylusInput::was_held_up(double age) const {
-  return age - (unattended_time() - unattended_) <= parameters_.max_age;
 }
 
 void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason,

@@ -39,9 +39,8 @@ struct InputStatistics {
   double newest_offer_age = 0.0;  ///< age, by its stamp, of the newest sample, whether or not it was used [s]
 };
 
-/// Reasons to reject messages: of a second sender, while the loop is stalled, and because this process was stopped.
-constexpr char another_sender[] = "another sender", loop_stalled[] = "the loop is stalled",
-               node_stood_still[] = "came while the node stood still";
+/// Reasons to reject messages: of a second sender, and while the loop is stalled.
+constexpr char another_sender[] = "another sender", loop_stalled[] = "the loop is stalled";
 
 /// Input of one stylus: subscribes to /tf, /tf_static and its buttons, and queues the events until they are taken.
 /// Unusable messages are rejected, counted by reason and logged in one throttled line. Poses are not filtered here; the
@@ -75,7 +74,6 @@ class StylusInput {
   void advance_stream(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early);
   void restart_when_due();
   double seconds(std::int64_t stamp);
-  bool was_held_up(double age) const;
   void reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason, double age);
 
   const ManipulationParameters parameters_;
@@ -86,7 +84,6 @@ class StylusInput {
   motion::SenderChoice sender_;
   motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;  ///< as the next, for wall time
   motion::StreamClock wall_buttons_;
-  double unattended_ = 0.0;  ///< unattended_time() at the newest queued pose [s]
   live::Inbox<live::StylusEvent> events_;
   InputStatistics statistics_;
   // For simulated time.
