@@ -28,6 +28,7 @@ constexpr double kOutOfReach = 1.5;                         // [m] from the cent
 constexpr double kReach = 0.4;                              // [m] to which a longer recorded path is scaled
 constexpr double kFaultEvery = 20.0, kChangeEvery = 5.0;    // [s] on average
 constexpr std::int64_t kBegin = 1'700'000'000'000'000'000;  // [ns]
+constexpr std::size_t kTextRoom = 1'000'000;                // [bytes] more than a checkpoint ever has
 
 std::int64_t nanoseconds(double s) { return std::llround(1e9 * s); }
 
@@ -73,6 +74,7 @@ class Day {
   Day(const DayOptions& options, std::ostream& out)
       : options_(options), out_(out), scene_(scene::load_scene(options.scene)), random_(options.seed) {
     for (const std::string& file : options.motions) paths_.push_back(path_of(file));
+    text_.reserve(kTextRoom);
     begin_life();
   }
 
@@ -135,13 +137,12 @@ class Day {
   void new_master() {
     end_life();
     sender_set_ = host_set_;  // no stream can start with clocks further apart than max_age
-    std::string text;
     checkpoint_->forget();
-    checkpoint_->keep([&](const std::string& kept) { text = kept; });
+    checkpoint_->keep([&](const std::string& kept) { text_ = kept; });
     const auto objects = [&] { return runner_->locked([](const Simulation& s) { return s.objects(); }); };
     const std::vector<bodies::BodyState> before = objects();
     begin_life();
-    checkpoint_->resume(text, "checkpoint", {});
+    checkpoint_->resume(text_, "checkpoint", {});
     const std::vector<bodies::BodyState> after = objects();
     for (std::size_t i = 0; i < before.size(); ++i) {
       const bool there = i < after.size() && after[i].X_WO.matrix() == before[i].X_WO.matrix();
@@ -317,6 +318,7 @@ class Day {
   motion::WallClock wall_;
   std::unique_ptr<live::SimulationRunner> runner_;
   std::unique_ptr<live::Checkpoint> checkpoint_;
+  std::string text_;  ///< of the checkpoint: of one size, so that the heap in use at the start of a life is, too
   std::unique_ptr<live::Replayer> replayer_;
   double t_ = 0.0, attended_ = 0.0, host_set_ = 0.0, sender_set_ = 0.0, stands_until_ = 0.0, next_line_ = 0.0;
   DayResult result_;

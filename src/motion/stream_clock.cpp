@@ -14,7 +14,7 @@ double seconds(std::int64_t nanoseconds) { return 1e-9 * static_cast<double>(nan
 }  // namespace
 
 std::string to_string(StampResult result) {
-  static const char* const names[] = {"fits", "stepped", "too old", "from the future", "stamp not later"};
+  static const char* const names[] = {"fits", "stepped", "too old", "held up", "from the future", "stamp not later"};
   return names[static_cast<std::size_t>(result)];
 }
 
@@ -36,7 +36,10 @@ StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
     return StampResult::stepped;
   }
   StampResult result = StampResult::fits;
-  if (own_age > max_age_) result = StampResult::too_old;
+  if (own_age > max_age_) {
+    const bool held_up = own_age - seconds(now.unattended - unattended_) <= max_age_;
+    result = held_up ? StampResult::held_up : StampResult::too_old;
+  }
   if (own_age < smallest_age_ - clock_slip) result = StampResult::from_the_future;
   if (seconds(*newest_ - stamp) > clock_slip) result = StampResult::not_later;
   if (result != StampResult::fits) {
@@ -51,6 +54,7 @@ StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
   smallest_age_ = std::min(own_age, smallest_age_ + clock_drift * seconds(now.now - arrival_));
   newest_ = std::max(*newest_, stamp);
   arrival_ = now.now;
+  unattended_ = now.unattended;
   unmatched_.clear();
   return result;
 }
@@ -71,6 +75,7 @@ StampResult StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
   smallest_age_ = first_age;
   newest_ = stamp;
   arrival_ = now.now;
+  unattended_ = now.unattended;
   return StampResult::fits;
 }
 

@@ -38,12 +38,13 @@ int main(int argc, char** argv) {
   if (spring_workbench::config::print_node_help(argc, argv, "manipulation",
                                                 "simulates the held object, its tools and contact for all hands."))
     return 0;
-  ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler);
-  spring_workbench::ros_common::log_in_background();
+  ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
   end_in_order();
   spring_workbench::ros_common::exit_after_timeout([] { return end_asked.load(); });
   try {
-    const spring_workbench::manipulation::ManipulationNode node(ros::NodeHandle(), ros::NodeHandle("~"));
+    const ros::NodeHandle handle;  // starts roscpp
+    spring_workbench::ros_common::log_in_background();
+    const spring_workbench::manipulation::ManipulationNode node(handle, ros::NodeHandle("~"));
     while (ros::ok() && !end_asked) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
   } catch (const spring_workbench::validation::InputError& error) {
     std::cerr << error.what() << std::endl;

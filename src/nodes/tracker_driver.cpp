@@ -14,11 +14,12 @@ int main(int argc, char** argv) {
   if (spring_workbench::config::print_node_help(argc, argv, "tracker_driver",
                                                 "publishes the poses of the hands as tf frames, and their buttons."))
     return 0;
-  ros::init(argc, argv, "tracker_driver");
-  spring_workbench::ros_common::log_in_background();
+  ros::init(argc, argv, "tracker_driver", ros::init_options::NoRosout);
   spring_workbench::ros_common::exit_after_timeout(ros::isShuttingDown);
   try {
-    spring_workbench::tracker_driver::run(ros::NodeHandle(), ros::NodeHandle("~"));
+    const ros::NodeHandle node;  // starts roscpp
+    spring_workbench::ros_common::log_in_background();
+    spring_workbench::tracker_driver::run(node, ros::NodeHandle("~"));
   } catch (const spring_workbench::validation::InputError& error) {
     std::cerr << error.what() << std::endl;
     return 2;

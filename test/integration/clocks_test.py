@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """The clocks of tracker_driver and manipulation are set, together and separately, the host is suspended and the
-processes are stopped, while an object is held and while it is not: it does not move, the hand is followed again within
-half a second, and one line says so. Then a second node sends the same stylus, and the tracker's frame is moved.
+processes are stopped, while an object is held and after it was put down elsewhere: it does not move, the hand is
+followed again within half a second, and exactly one line says so. Then a second node sends the same stylus, and the
+tracker's frame is moved.
 STANDSTILL: how long the processes are stopped [s]."""
+import contextlib
 import math
 import os
 import signal
@@ -58,6 +60,10 @@ class Shifted:
         self.process.wait()
 
 
+def velocity(state):
+    return (state.twist.linear.x, state.twist.linear.y, state.twist.linear.z)
+
+
 class Clocks(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -78,8 +84,9 @@ class Clocks(unittest.TestCase):
         wait_for(lambda: cls.came and cls.objects.last, "the stylus and the box")
 
     @classmethod
-    def push(cls, speed, grasp):
-        cls.pad.publish(Joy(axes=[0.0, 0.0, speed, 0.0, 0.0, 0.0], buttons=[grasp, 0]))
+    def push(cls, speed, grasp, axis="z"):
+        axes = [speed if axis == of else 0.0 for of in "xyz"] + [0.0] * 3
+        cls.pad.publish(Joy(axes=axes, buttons=[grasp, 0]))
 
     def hold(self):
         """The hand holds the box, lifted, and rests."""
@@ -90,6 +97,22 @@ class Clocks(unittest.TestCase):
             wait_for(lambda: self.push(1.0, 1) or box().pose.position.z > 0.1, "the box to be lifted")
             self.push(0.0, 1)
         wait_for(lambda: abs(box().twist.linear.z) < 1e-5, "the box to rest")
+
+    def put_down(self):
+        """The hand holds the box, carries it away from its start, puts it down and rests in it."""
+        box = lambda: self.objects.last.objects[0]
+        start = self.newest().pose.position
+        self.hold()
+        for axis, speed, there in (
+            ("x", 1.0, lambda: box().pose.position.x > start.x + 0.1),
+            ("z", -1.0, lambda: box().pose.position.z < start.z + 0.005),
+        ):
+            wait_for(lambda: self.push(speed, 1, axis) or there(), "the box to be carried along " + axis)
+            self.push(0.0, 1)
+            wait_for(lambda: max(map(abs, velocity(box()))) < 1e-3, "the hand to rest")
+        self.push(0.0, 0)
+        wait_for(lambda: not box().held and not any(velocity(box())), "the box to lie there")
+        self.assertGreater(self.newest().pose.position.x, start.x + 0.1)
 
     @classmethod
     def on_transforms(cls, message):
@@ -105,17 +128,28 @@ class Clocks(unittest.TestCase):
         wait_for(lambda: len(self.objects.messages) > seen, "a state")
         return self.objects.last.objects[0]
 
-    def check_one_warning(self, fault, what):
-        """One line of all nodes says that a clock was set."""
+    def check_one_warning(self, fault, what, says):
+        """One line of all nodes says what happened."""
         told = len(self.log.messages)
-        lines = lambda: [m.name + ": " + m.msg for m in self.log.messages[told:] if m.level >= Log.WARN]
         gap, back = self.check(fault, what)
-        wait_for(lines, "a warning")
-        self.assertEqual(len(lines()), 1, lines())
-        self.assertIn("/manipulation: ", lines()[0])
-        self.assertIn("clock", lines()[0])
-        self.assertLess(gap, 0.5)
+        wait_for(lambda: self.warnings(told), "a warning")
+        self.assertEqual(len(self.warnings(told)), 1, self.warnings(told))
+        self.assertIn("/manipulation: ", self.warnings(told)[0])
+        self.assertIn(says, self.warnings(told)[0])
         self.assertLess(back, 0.5)
+        return gap
+
+    def warnings(self, since):
+        return [m.name + ": " + m.msg for m in self.log.messages[since:] if m.level >= Log.WARN]
+
+    @contextlib.contextmanager
+    def no_other_warning(self):
+        """The number of warnings since the beginning is that of the faults, even after the next diagnostics."""
+        told, faults = len(self.log.messages), []
+        yield lambda *fault: faults.append(fault) or self.check_one_warning(*fault)
+        said = len(self.diagnostics.messages)
+        wait_for(lambda: len(self.diagnostics.messages) > said + 4, "two diagnostics of each node")
+        self.assertEqual(len(self.warnings(told)), len(faults), self.warnings(told))
 
     def check(self, fault, what):
         before, told = self.newest(), len(self.log.messages)
@@ -150,28 +184,32 @@ class Clocks(unittest.TestCase):
             node.process.send_signal(signal.SIGCONT)
 
     def set_clocks(self):
-        for by in STEPS:
-            self.check_one_warning(lambda: self.set_both(by, [self.driver]), "both by %g s" % by)
-        for by in SUSPENDS:
-            self.check_one_warning(lambda: self.set_both(by, [self.driver, self.node]), "suspended for %g s" % by)
-        for node in (self.driver, self.node):
-            for by in STEPS:
-                self.check_one_warning(lambda: node.set(by), "one by %g s" % by)
+        both, says = [self.driver, self.node], "clock"
+        with self.no_other_warning() as check:
+            gaps = [check(lambda: self.set_both(by, [self.driver]), "both by %g s" % by, says) for by in STEPS]
+            gaps += [check(lambda: self.set_both(by, both), "suspended for %g s" % by, says) for by in SUSPENDS]
+            for one in both:
+                gaps += [check(lambda: one.set(by), "one by %g s" % by, says) for by in STEPS]
+        self.assertLess(max(gaps), 0.5)
 
     def stop_processes(self):
-        for nodes in ([self.node], [self.driver], [self.driver, self.node]):
-            def stand():
-                for node in nodes:
-                    node.process.send_signal(signal.SIGSTOP)
-                time.sleep(STANDSTILL)
-                for node in nodes:
-                    node.process.send_signal(signal.SIGCONT)
+        with self.no_other_warning() as check:
+            for nodes, says in (
+                ([self.node], "skipped"),
+                ([self.driver], "the hand was lost"),
+                ([self.driver, self.node], "skipped"),
+            ):
+                def stand():
+                    for node in nodes:
+                        node.process.send_signal(signal.SIGSTOP)
+                    time.sleep(STANDSTILL)
+                    for node in nodes:
+                        node.process.send_signal(signal.SIGCONT)
 
-            _, back = self.check(stand, "%d stood" % len(nodes))
-            self.assertLess(back, 0.5)
+                check(stand, "%d stood" % len(nodes), says)
 
     def test_at_rest(self):  # before the others, which hold the box
-        self.assertFalse(self.newest().held)
+        self.put_down()
         self.set_clocks()
         self.stop_processes()
         self.assertFalse(self.newest().held)

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """The stack under faults: nodes killed and restarted, a subscriber that does not read, a full disk, a stopped
 processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
-import ctypes
 import io
 import os
 import re
@@ -42,6 +41,7 @@ from stack import (
     Hand,
     Launched,
     Listener,
+    StoppedThread,
     diagnostic_values,
     diagnostics_listener,
     kill_and_wait,
@@ -52,7 +52,6 @@ from stack import (
 )
 
 BOX = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
-LIBC = ctypes.CDLL(None, use_errno=True)
 NODE = roslib.packages.find_node("spring_workbench", "manipulation")[0]
 SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
 STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "calibrate:=none", "respawn:=true"]
@@ -103,31 +102,6 @@ class UnreadLog:
                 pass
         os.set_blocking(end, True)
         self.end = open(end, "wb")
-
-
-class StoppedThread:
-    """Stops one thread of a child process, like a debugger, until it is released."""
-
-    SEIZE, INTERRUPT, DETACH, ALL = 0x4206, 0x4207, 17, 0x40000000
-
-    def __init__(self, pid, name):
-        def name_of(thread):
-            with open("/proc/%d/task/%s/comm" % (pid, thread)) as file:
-                return file.read().strip()
-
-        (self.thread,) = [int(t) for t in os.listdir("/proc/%d/task" % pid) if name_of(t) == name]
-        self.ask(self.SEIZE)
-        self.ask(self.INTERRUPT)
-        os.waitpid(self.thread, self.ALL)
-
-    def ask(self, request):
-        if LIBC.ptrace(request, self.thread, None, None) != 0:
-            raise OSError(ctypes.get_errno(), "ptrace")
-
-    def let_go(self):
-        if self.thread:
-            self.ask(self.DETACH)
-        self.thread = None
 
 
 class Faults(unittest.TestCase):
@@ -413,7 +387,7 @@ class Faults(unittest.TestCase):
         self.addCleanup(other.kill)
         wait_for(lambda: senders() > before, "another sender")
         self.follow(poses)
-        callbacks = StoppedThread(node.pid, "input")
+        callbacks = StoppedThread.named(node.pid, "input")
         self.addCleanup(callbacks.let_go)
         noise = Written(TFMessage([TransformStamped(child_frame_id="noise")]))
         for _ in range(count):

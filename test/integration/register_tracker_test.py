@@ -15,7 +15,7 @@ import rostest
 import tf2_msgs.msg
 import yaml
 
-from stack import Launched, Listener, wait_for
+from stack import Launched, Listener, StoppedThread, diagnostic_values, diagnostics_listener, slave_api, wait_for
 
 RECORDING = os.path.join(
     rospkg.RosPack().get_path("spring_workbench"), "..", "shared", "data", "motions", "plus_stylus_8landmarks_60s.tum"
@@ -175,6 +175,29 @@ class RegisterTracker(unittest.TestCase):
         print("%d landmarks\n%s" % (len(touches), report))
         self.check_offset(found["offset"], OFFSET, 3e-3, 3e-2)
         self.refuse("", "--landmarks", self.landmarks(places[1:] + places[:1]), "--motion", motion)
+
+    def test_messages_lost_at_a_full_queue_are_counted(self):
+        """While its thread is stopped, all but the newest messages are lost, and each is counted."""
+        count, queue = 3000, 1000
+        diagnostics = diagnostics_listener()
+        self.addCleanup(diagnostics.subscriber.unregister)
+        program = subprocess.Popen([PROGRAM, "--pivot", "--out", self.file("lost.yaml")], stdout=subprocess.DEVNULL)
+        self.addCleanup(program.wait)
+        self.addCleanup(program.kill)
+        tf = rospy.Publisher("/tf", tf2_msgs.msg.TFMessage, queue_size=count)
+        lost = lambda: diagnostic_values(diagnostics.messages, "register_tracker: messages lost").get("/tf")
+        wait_for(lambda: tf.get_num_connections() > 0 and lost() == "0", "nothing to be lost yet")
+        node = slave_api("/register_tracker")
+        received = lambda: max(c[2] for _, connections in node.getBusStats("")[1] for c in connections)  # of messages
+        before = received()
+        thread = StoppedThread(program.pid)
+        self.addCleanup(thread.let_go)
+        for _ in range(count):
+            tf.publish(tf2_msgs.msg.TFMessage())
+        wait_for(lambda: received() - before >= count, "all messages to have come")
+        thread.let_go()
+        wait_for(lambda: int(lost()) > 0, "the lost messages to be counted")
+        self.assertEqual(int(lost()), count - queue)
 
     def test_from_the_running_driver_and_back_into_it(self):
         rospy.set_param("/use_sim_time", False)

@@ -1,4 +1,5 @@
 """Shared by the integration tests: a hand on its own clock, and waiting with a deadline."""
+import ctypes
 import math
 import os
 import signal
@@ -70,6 +71,37 @@ class Listener:
             lambda: next((m for m in self.messages[seen:] if condition(m)), None),
             "%s on %s" % (what, self.subscriber.name),
         )
+
+
+class StoppedThread:
+    """Stops one thread of a child process, like a debugger, until it is released."""
+
+    SEIZE, INTERRUPT, DETACH, ALL = 0x4206, 0x4207, 17, 0x40000000
+    LIBC = ctypes.CDLL(None, use_errno=True)
+
+    def __init__(self, thread):
+        self.thread = thread
+        self.ask(self.SEIZE)
+        self.ask(self.INTERRUPT)
+        os.waitpid(self.thread, self.ALL)
+
+    @classmethod
+    def named(cls, pid, name):
+        def name_of(thread):
+            with open("/proc/%d/task/%s/comm" % (pid, thread)) as file:
+                return file.read().strip()
+
+        (thread,) = [int(t) for t in os.listdir("/proc/%d/task" % pid) if name_of(t) == name]
+        return cls(thread)
+
+    def ask(self, request):
+        if self.LIBC.ptrace(request, self.thread, None, None) != 0:
+            raise OSError(ctypes.get_errno(), "ptrace")
+
+    def let_go(self):
+        if self.thread:
+            self.ask(self.DETACH)
+        self.thread = None
 
 
 def services_of_manipulation(kinds):

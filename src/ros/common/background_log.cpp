@@ -4,18 +4,23 @@
 #include <log4cxx/logger.h>
 #include <poll.h>
 #include <ros/console.h>
+#include <ros/rosout_appender.h>
 #include <unistd.h>
 
 namespace spring_workbench::ros_common {
 
 void log_in_background() {
-  ROSCONSOLE_AUTOINIT;  // creates the appender that writes to the terminal
+  ROSCONSOLE_AUTOINIT;                                       // adds the appender that writes to the terminal
+  ros::console::register_appender(new ros::ROSOutAppender);  // its queue uses it until the program exits
   const log4cxx::LoggerPtr logger = log4cxx::Logger::getLogger(ROSCONSOLE_ROOT_LOGGER_NAME);
-  const log4cxx::AsyncAppenderPtr queue(new log4cxx::AsyncAppender);
-  queue->setBlocking(false);
-  for (const log4cxx::AppenderPtr& appender : logger->getAllAppenders()) queue->addAppender(appender);
+  const log4cxx::AppenderList appenders = logger->getAllAppenders();
   logger->removeAllAppenders();
-  logger->addAppender(queue);
+  for (const log4cxx::AppenderPtr& appender : appenders) {
+    const log4cxx::AsyncAppenderPtr queue(new log4cxx::AsyncAppender);
+    queue->setBlocking(false);
+    queue->addAppender(appender);
+    logger->addAppender(queue);
+  }
 }
 
 bool error_output_takes_more() {

@@ -26,7 +26,7 @@ constexpr double jump_timeout = 1.0;
 constexpr double master_period = 1.0;
 /// Number of checks of a restarted master between the registration of publishers and that of subscribers. If fewer,
 /// subscribers lose publishers that are not registered again yet. Test:
-/// master_test.py::test_a_new_master_lists_the_nodes_again at 0.
+/// master_test.py::test_a_new_master_lists_the_nodes_again_after_one_that_hung at 0.
 constexpr int subscribers_later = 2;
 /// Timeout for the reply of the node's own API [s]. If longer, a node that is interrupted meanwhile exits later. Test:
 /// ended_nodes_test.py::test_all_end_in_order at 600.

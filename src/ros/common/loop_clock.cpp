@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <thread>
 
@@ -65,7 +66,11 @@ hand_input::LocalTime local_time() {
 motion::WallMoment wall_moment() {
   static motion::WallClock clock;
   const Reading reading = read_clocks();
-  return ros::Time::isSimTime() ? motion::WallMoment{reading.ros, 0} : clock.read(reading.ros, reading.steady);
+  if (ros::Time::isSimTime()) return {reading.ros, 0};
+  motion::WallMoment moment = clock.read(reading.ros, reading.steady);
+  const hand_input::LocalTime now = local_time();
+  moment.unattended = std::llround(1e9 * (now.loop - now.attended));
+  return moment;
 }
 
 ros::Time stamp_of(const std::optional<std::int64_t>& stamp) {

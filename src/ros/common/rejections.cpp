@@ -8,7 +8,7 @@
 namespace spring_workbench::ros_common {
 
 void Rejections::add(const std::string& reason, const std::string& line) {
-  ++counts_[reason];
+  count(reason);
   const double now = steady_time();
   const auto last = last_logged_.find(reason);
   if (last != last_logged_.end() && now - last->second < log_period) return;

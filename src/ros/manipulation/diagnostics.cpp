@@ -93,8 +93,10 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   const double silence = now - hand.newest_arrival;
   status.add("time since newest sample [s]", silence);
   if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand stays at rest");
-  if (hand.reacquisition.losses > last.hand.reacquisition.losses)
+  if (hand.reacquisition.losses > last.hand.reacquisition.losses) {
     status.raise(DiagnosticStatus::WARN, "the hand was lost");
+    ROS_WARN_STREAM(what << ": no sample for input.loss_timeout: the hand was lost");
+  }
   if (hand.gate.dropouts > last.hand.gate.dropouts) {
     const std::string complaint = complaint_about_gaps(hand.gate, dropout_after_);
     status.raise(DiagnosticStatus::WARN, complaint.empty() ? "dropouts" : complaint);

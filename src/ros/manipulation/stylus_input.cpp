@@ -105,6 +105,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
       transform, ros_common::nanoseconds_of(transform.header.stamp), ros_common::wall_moment(),
       [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
       [&](const geometry_msgs::TransformStamped& one, motion::StampResult result, double age) {
+        if (result == motion::StampResult::held_up) return rejections_.count(motion::to_string(result));
         reject_stamp(one, motion::to_string(result), age);
       });
   if (const double host_set = wall_poses_.take_host_steps(); host_set != 0.0)

@@ -1,5 +1,6 @@
 #include "spring_workbench/ros/register_tracker/register_tracker.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
 #include <tf2_msgs/TFMessage.h>
@@ -7,13 +8,16 @@
 #include <atomic>
 #include <iostream>
 
+#include "constants.h"
 #include "spring_workbench/config/command_line.h"
 #include "spring_workbench/config/output_file.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/registration/touches.h"
 #include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/counted_subscriber.h"
 #include "spring_workbench/ros/common/exit_after_timeout.h"
+#include "spring_workbench/ros/common/lost_messages.h"
 #include "spring_workbench/ros/common/master_watch.h"
 #include "spring_workbench/ros/common/parameters.h"
 
@@ -22,12 +26,18 @@ namespace {
 
 std::atomic<bool> has_samples{false};  ///< before that, an interrupt ends the program without a file
 
-/// Collects samples of the stylus and its button from the running driver.
+/// Collects samples of the stylus and its button from the running driver. Reports in /diagnostics what it has lost.
 class Listener {
  public:
   Listener()
-      : tf_(node_.subscribe("/tf", 1000, &Listener::on_transforms, this)),
-        joy_(node_.subscribe("stylus/joy", 1000, &Listener::on_buttons, this)) {}
+      : diagnostics_(node_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
+        timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &Listener::publish_diagnostics, this)) {
+    using ros_common::CountedSubscriber;
+    tf_ = CountedSubscriber::to<const tf2_msgs::TFMessage&>(node_, "/tf", input_queue,
+                                                            [this](const auto& message) { on_transforms(message); });
+    joy_ = CountedSubscriber::to<const sensor_msgs::Joy&>(node_, "stylus/joy", input_queue,
+                                                          [this](const auto& message) { on_buttons(message); });
+  }
   ~Listener() { master_thread_.stop(); }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -63,13 +73,23 @@ class Listener {
     pressed_ = pressed;
   }
 
+  void publish_diagnostics(const ros::SteadyTimerEvent&) {
+    diagnostic_msgs::DiagnosticArray message;
+    message.header.stamp = ros::Time::now();
+    message.status = {lost_messages_.report(ros::this_node::getName())};
+    diagnostics_.publish(message);
+  }
+
   ros::NodeHandle node_;
   std::vector<motion::StylusSample> samples_;
   bool pressed_ = false;
   std::size_t released_ = 0;
   ros_common::CallbackThread master_thread_{"master"};
   ros_common::MasterWatch master_watch_{master_thread_.handle(node_)};
-  ros::Subscriber tf_, joy_;
+  ros_common::LostMessages lost_messages_;
+  ros::Publisher diagnostics_;
+  ros::SteadyTimer timer_;
+  ros_common::CountedSubscriber tf_, joy_;
 };
 
 }  // namespace

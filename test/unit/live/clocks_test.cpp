@@ -273,6 +273,25 @@ TEST(Senders, ATrackerThatIsMovedPullsNoHarderThanAHandThatIsFoundAgain) {
   EXPECT_EQ(session.statistics().reacquisition.reacquisitions, 1u);
 }
 
+/// After a stop of 7 s its queued samples come all at once. They are too old because of the stop, and for nothing else:
+/// without it, and by more than it lasted, a sample is simply too old.
+TEST(Senders, SamplesThatWaitedForAStoppedProcessAreToldApart) {
+  using motion::StampResult;
+  for (const double stopped : {0.0, 7.0}) {
+    motion::StreamClock clock(1.0);
+    const auto check = [&](double stamp, double now) {
+      const double unattended = now > 1.0 ? stopped : 0.0;
+      const motion::WallMoment moment{wall_begin + nanoseconds(now), 0, nanoseconds(unattended)};
+      return clock.check(wall_begin + nanoseconds(stamp), moment);
+    };
+    for (double t = 0.0; t < 1.0; t += interval) ASSERT_EQ(check(t, t), StampResult::fits) << t;
+    for (double t = 1.0; t < 6.9; t += interval)
+      ASSERT_EQ(check(t, 8.0), stopped > 0.0 ? StampResult::held_up : StampResult::too_old) << t;
+    EXPECT_EQ(check(7.5, 8.0), StampResult::fits);
+    EXPECT_EQ(check(7.6, 9.0), StampResult::too_old);  // not because of the stop, which was before
+  }
+}
+
 TEST(Senders, TheFirstIsFollowedUntilItIsSilent) {
   motion::SenderChoice choice(0.5);
   EXPECT_TRUE(choice.accepts("/a", 0.0));

@@ -2,9 +2,10 @@
 
 namespace spring_workbench::ros_common {
 
-/// Writes log lines to the terminal from a separate thread from now on, so that a terminal that does not read (Ctrl-S,
-/// a pager, a full pipe) blocks no other thread. Lines beyond the capacity of the queue are dropped, and a later line
-/// reports how many. Call once, before other threads log.
+/// Passes log lines to the terminal and to /rosout from two threads of their own from now on, so that no other thread
+/// is blocked: neither by a terminal that does not read (Ctrl-S, a pager, a full pipe) nor by a ROS master that does
+/// not answer, for which roscpp lets each line wait while it sets a parameter. Lines beyond the capacity of a queue are
+/// dropped, and a later line reports how many. Call once, after roscpp was started with ros::init_options::NoRosout.
 void log_in_background();
 
 /// Whether standard error can take a line without blocking.
