@@ -3,12 +3,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "accelerations.h"
 #include "constants.h"
 #include "spring_workbench/dynamics/linearised_motion.h"
 #include "spring_workbench/math/by_size.h"
+#include "spring_workbench/math/rodas.h"
 
 namespace spring_workbench::dynamics {
 StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
@@ -50,78 +50,32 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
 
 namespace {
 
-/// RODASP. Stage i: u + Σ a_ij U_j at t + α_i h, and h γ_i times the derivative by time.
-constexpr double alpha[] = {0.0, 0.75, 0.21, 0.63, 1.0, 1.0};
-constexpr std::size_t stages = std::size(alpha);
-constexpr double gamma_t[stages] = {0.25, -0.5, -0.023504, -0.0362, 0.0, 0.0};
-constexpr double a_ij[stages][stages] = {
-    {},
-    {3.0},
-    {1.831036793486759, 0.4955183967433795},
-    {2.304376582692669, -0.05249275245743001, -1.176798761832782},
-    {-7.170454962423024, -4.741636671481785, -16.31002631330971, -1.062004044111401},
-    {-7.170454962423024, -4.741636671481785, -16.31002631330971, -1.062004044111401, 1.0}};
-constexpr double c_ij[stages][stages] = {
-    {},
-    {-12.0},
-    {-8.791795173947035, -2.207865586973518},
-    {10.81793056857153, 6.780270611428266, 19.53485944642410},
-    {34.19095006749676, 15.49671153725963, 54.74760875964130, 14.16005392148534},
-    {34.62605830930532, 15.30084976114473, 56.99955578662667, 18.40807009793095, -5.714285714285717}};
-
-/// Steps side by side: a column of `q` and `v` for each, and its length in `h`. `acceleration(c, q, v)` at t + c h,
-/// `by_time` its derivative by time; `solve(b)`: (M + γ h D + γ² h² K)⁻¹ b.
-template <typename Matrix, typename Lengths, typename Acceleration, typename Solve>
-void rodas_steps(const LinearisedMotion& motion, const Lengths& h, const Acceleration& acceleration,
-                 const Matrix& by_time, const Solve& solve, Matrix& q, Matrix& v) {
-  constexpr int n = Matrix::RowsAtCompileTime;
-  const Eigen::Matrix<double, n, n> M = motion.M, K = motion.K;
-  const Lengths d = gamma_t[0] * h, over_h = h.cwiseInverse();  // γ_i of the first stage is γ
-  Matrix Q[stages], V[stages];
-  for (std::size_t i = 0; i < stages; ++i) {
-    Matrix q_i = q, v_i = v, rest_q = Matrix::Zero(), rest_v = Matrix::Zero();
-    for (std::size_t j = 0; j < i; ++j) {
-      q_i += a_ij[i][j] * Q[j];
-      v_i += a_ij[i][j] * V[j];
-      rest_q += c_ij[i][j] * Q[j];
-      rest_v += c_ij[i][j] * V[j];
-    }
-    rest_q = rest_q * over_h.asDiagonal() + v_i;
-    rest_v = rest_v * over_h.asDiagonal() + acceleration(alpha[i], q_i, v_i) + by_time * (gamma_t[i] * h).asDiagonal();
-    V[i] = solve(Matrix((M * rest_v - K * rest_q * d.asDiagonal()) * d.asDiagonal()));
-    Q[i] = (V[i] + rest_q) * d.asDiagonal();
-    if (i + 1 == stages) {
-      q = q_i + Q[i];
-      v = v_i + V[i];
-    }
-  }
-}
-
 /// Steps side by side from the same state at `t`, one or two.
 template <int n, int columns>
 void rodas_steps(const HeldBody& body, const motion::FrameMotion& handle, double t,
                  const Eigen::Matrix<double, 1, columns>& h, Eigen::Matrix<double, n, columns>& q,
                  Eigen::Matrix<double, n, columns>& v) {
+  using Column = Eigen::Matrix<double, n, 1>;
   using Columns = Eigen::Matrix<double, n, columns>;
   const double dt = time_difference * h[0];
-  const Eigen::Matrix<double, n, 3> a =
-      accelerations<n, 3>(body, body.forcing(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
-                          q.col(0).template replicate<1, 3>(), v.col(0).template replicate<1, 3>());
+  const auto a = accelerations(body, body.forcing(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
+                               side_by_side<n, math::pack_size>(q), side_by_side<n, math::pack_size>(v));
+  Column by_time;
+  for (int i = 0; i < n; ++i) by_time[i] = (-3.0 * a(i, 0) + 4.0 * a(i, 1) - a(i, 2)) / (2.0 * dt);
   const LinearisedMotion motion(body, body.forcing(handle, t), body.forcing(handle, t + math::Pack{}),
                                 {q.col(0), v.col(0)}, a.col(0));
-  const ImplicitMatrix first(motion, gamma_t[0] * h[0]), last(motion, gamma_t[0] * h[columns - 1]);
-  const auto acceleration = [&](double c, const Columns& q_c, const Columns& v_c) -> Columns {
-    if (c == 0.0) return a.col(0).template replicate<1, columns>();
+  const ImplicitMatrix first(motion, math::Rodas::gamma * h[0]), last(motion, math::Rodas::gamma * h[columns - 1]);
+  const auto acceleration = [&](double c, const Columns& q_c, const Columns& v_c) {
+    if (c == 0.0) return side_by_side<n, columns>(a);
     const double longer = h[0], shorter = h[columns - 1];
     return accelerations(body, body.forcing(handle, t + c * math::Pack{longer, shorter, shorter, shorter}), q_c, v_c);
   };
   const auto solve = [&](const Columns& b) {
     Columns x;
-    for (int k = 0; k < columns; ++k) x.col(k) = (k == 0 ? first : last).solve(Eigen::Matrix<double, n, 1>(b.col(k)));
+    for (int k = 0; k < columns; ++k) x.col(k) = (k == 0 ? first : last).solve(Column(b.col(k)));
     return x;
   };
-  const Columns by_time = ((-3.0 * a.col(0) + 4.0 * a.col(1) - a.col(2)) / (2.0 * dt)).template replicate<1, columns>();
-  rodas_steps(motion, h, acceleration, by_time, solve, q, v);
+  math::Rodas::steps(motion.M, motion.K, h, acceleration, side_by_side<n, columns>(by_time), solve, q, v);
 }
 
 }  // namespace
@@ -130,14 +84,15 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
                               StrainState& state) {
   return math::by_size(body.size(), [&](auto size) -> StepEstimate {
     constexpr int n = decltype(size)::value;
-    Eigen::Matrix<double, n, 2> q = state.q.replicate<1, 2>(), v = state.q_dot.replicate<1, 2>();
+    Eigen::Matrix<double, n, 2> q = side_by_side<n, 2>(state.q), v = side_by_side<n, 2>(state.q_dot);
     rodas_steps<n, 2>(body, handle, t, {h, 0.5 * h}, q, v);  // the whole, and the first half
     Eigen::Matrix<double, n, 1> q_end = q.col(1), v_end = v.col(1);
     if (q_end.allFinite() && v_end.allFinite()) {
       rodas_steps<n, 1>(body, handle, t + 0.5 * h, Eigen::Matrix<double, 1, 1>(0.5 * h), q_end, v_end);
     }
     state = {q_end, v_end};
-    return {(q.col(0) - q_end) / finer_by, 0.0, (v.col(0) - v_end) / finer_by};
+    const rod::StrainVector q_whole = q.col(0), v_whole = v.col(0);
+    return {(q_whole - state.q) / finer_by, 0.0, (v_whole - state.q_dot) / finer_by};
   });
 }
 
@@ -145,7 +100,7 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
 Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleForcing& handle, double h,
                                           const StrainState& state) {
   const LinearisedMotion motion(body, handle, state.q);
-  const ImplicitMatrix matrix(motion, gamma_t[0] * h);
+  const ImplicitMatrix matrix(motion, math::Rodas::gamma * h);
   const Eigen::LLT<rod::StrainMatrix> M(motion.M);
   return math::by_size(body.size(), [&](auto size) -> Response {
     using Columns = Eigen::Matrix<double, decltype(size)::value, decltype(size)::value>;
@@ -154,9 +109,9 @@ Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleForc
     const auto acceleration = [&](double, const Columns& q_c, const Columns& v_c) {
       return Columns(M.solve(Columns::Identity() - K * q_c - D * v_c));
     };
-    const auto solve = [&](const Columns& b) { return matrix.solve(b); };
+    const auto solve = [&](const Columns& b) { return Columns(matrix.solve(b)); };
     const Eigen::Matrix<double, 1, decltype(size)::value> lengths = Columns::Constant(h).row(0);
-    rodas_steps(motion, lengths, acceleration, none, solve, q, v);
+    math::Rodas::steps(motion.M, motion.K, lengths, acceleration, none, solve, q, v);
     return {q, v};
   });
 }

@@ -24,20 +24,21 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
     constexpr int n = decltype(size)::value;
     const Eigen::Matrix<double, n, 1> a = q_ddot;
     for (int first = 0; first < 2 * n; first += math::pack_size) {  // strains, then rates: one in each lane
-      Eigen::Matrix<double, n, math::pack_size> q = state.q.replicate<1, math::pack_size>(),
-                                                q_dot = state.q_dot.replicate<1, math::pack_size>();
+      auto q = side_by_side<n, math::pack_size>(state.q), q_dot = side_by_side<n, math::pack_size>(state.q_dot);
       const int used = std::min(math::pack_size, 2 * n - first);
       for (int k = 0; k < used; ++k) {
         const int j = first + k;
         j < n ? q(j, k) += dq[j] : q_dot(j - n, k) += dv[j - n];
       }
-      const auto force = (accelerations(body, moment, q, q_dot).colwise() - a).eval();  // times M⁻¹
+      const Eigen::Matrix<double, n, math::pack_size> moved = accelerations(body, moment, q, q_dot);
       for (int k = 0; k < used; ++k) {
         const int j = (first + k) % n;
         const bool strain = first + k < n;
         const double step = strain ? q(j, k) - state.q[j] : q_dot(j, k) - state.q_dot[j];
-        auto column = (strain ? K : D).col(j);
-        column -= (M * force.col(k) + step * column) / step;
+        const Eigen::Matrix<double, n, 1> change = moved.col(k) - a;
+        const rod::StrainVector force = M * change;
+        rod::StrainMatrix& into = strain ? K : D;
+        for (int i = 0; i < n; ++i) into(i, j) -= (force[i] + step * into(i, j)) / step;
       }
     }
   });
@@ -47,6 +48,10 @@ ImplicitMatrix::ImplicitMatrix(const LinearisedMotion& motion, double d) {
   const rod::StrainMatrix A = motion.M + d * motion.D + d * d * motion.K;
   scale_ = A.diagonal().cwiseAbs().cwiseMax(motion.M.diagonal()).cwiseSqrt().cwiseInverse();
   lu_.compute(scale_.asDiagonal() * A * scale_.asDiagonal());
+}
+
+rod::StrainMatrix ImplicitMatrix::solve(const rod::StrainMatrix& b) const {
+  return scale_.asDiagonal() * lu_.solve(rod::StrainMatrix(scale_.asDiagonal() * b));
 }
 
 }  // namespace spring_workbench::dynamics

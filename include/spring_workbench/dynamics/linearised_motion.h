@@ -24,16 +24,16 @@ struct LinearisedMotion {
 class ImplicitMatrix {
  public:
   ImplicitMatrix(const LinearisedMotion& motion, double d);
-  rod::StrainMatrix solve(const rod::StrainMatrix& b) const {
-    return scale_.asDiagonal() * lu_.solve(rod::StrainMatrix(scale_.asDiagonal() * b));
-  }
-  template <int n, int columns>
-  Eigen::Matrix<double, n, columns> solve(const Eigen::Matrix<double, n, columns>& b) const {
+  rod::StrainMatrix solve(const rod::StrainMatrix& b) const;
+  template <int n>
+  Eigen::Matrix<double, n, 1> solve(const Eigen::Matrix<double, n, 1>& b) const {
     const Eigen::Map<const Eigen::Matrix<double, n, n>> LU(lu_.matrixLU().data());
-    Eigen::Matrix<double, n, columns> x = lu_.permutationP() * (scale_.asDiagonal() * b);
+    Eigen::Matrix<double, n, 1> x;
+    for (int i = 0; i < n; ++i) x[lu_.permutationP().indices()[i]] = scale_[i] * b[i];
     LU.template triangularView<Eigen::UnitLower>().solveInPlace(x);
     LU.template triangularView<Eigen::Upper>().solveInPlace(x);
-    return scale_.asDiagonal() * x;
+    for (int i = 0; i < n; ++i) x[i] *= scale_[i];
+    return x;
   }
 
  private:
