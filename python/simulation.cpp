@@ -143,8 +143,10 @@ void bind_state_access(py::class_<Simulation>& type) {
           "compliant materials.")
       .def("save", &Simulation::save, "Returns the whole state.")
       .def("restore", &Simulation::restore, py::arg("state"),
-           "Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes "
-           "nothing, if the state has other bodies, another contact mode, number of styluses or shape of the fork.")
+           "Restores a state saved by a simulation with the same scene and settings, which then continues "
+           "bit-identically. "
+           "Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of the fork "
+           "differ; other settings are not compared.")
       .def_property_readonly(
           "state_hash", [](const Simulation& s) { return simulation::to_hex(s.state_hash()); },
           "Hash of the whole state: 16 hexadecimal digits.");
@@ -246,7 +248,7 @@ void bind_simulation(py::module& module) {
   py::class_<Simulation> type(module, "Simulation", R"(Simulation of a scene with hands and their tools.
 
 It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus, at
-most the setting `styluses` - 1; any other raises InputError.)");
+most the setting `styluses` - 1; another raises InputError, a negative one TypeError.)");
   type.def(
           py::init([](const scene::Scene& scene, const std::variant<SimulationSettings, py::dict>& settings) {
             if (const auto* ready = std::get_if<SimulationSettings>(&settings)) return Simulation(scene, *ready);

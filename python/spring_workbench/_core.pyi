@@ -310,7 +310,7 @@ class Simulation:
     """Simulation of a scene with hands and their tools.
 
     It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus,
-    at most the setting `styluses` - 1; any other raises InputError."""
+    at most the setting `styluses` - 1; another raises InputError, a negative one TypeError."""
     def __init__(self, scene: Scene, settings: Union[SimulationSettings, Dict[str, Any]] = ...) -> None:
         """Starts a simulation of `scene`. settings: SimulationSettings or the dictionary for it. Raises InputError if a
         setting is not allowed or does not match the scene."""
@@ -380,8 +380,9 @@ class Simulation:
     def save(self) -> SimulationState:
         """Returns the whole state."""
     def restore(self, state: SimulationState) -> None:
-        """Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes
-        nothing, if the state has other bodies, another contact mode, number of styluses or shape of the fork."""
+        """Restores a state saved by a simulation with the same scene and settings, which then continues bit-identically.
+        Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of the fork
+        differ; other settings are not compared."""
     @property
     def state_hash(self) -> str:
         """Hash of the whole state: 16 hexadecimal digits."""

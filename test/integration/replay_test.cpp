@@ -85,10 +85,27 @@ TEST_F(Replay, WarnsWhenTheIntegratorDidNotTakeTheSteps) {
   const Outcome unstable = run(command + "rk4 --set step=0.02");
   const YAML::Node summary = summary_of(unstable);
   EXPECT_GT(summary["steps_fallback"].as<int>(), summary["steps"].as<int>() / 100);
-  EXPECT_EQ(unstable.err, "warning: the integrator did not take " + summary["steps_fallback"].as<std::string>() +
-                              " of about " + summary["steps"].as<std::string>() +
-                              " steps, another rule did: decrease step, or choose another\n");
+  EXPECT_EQ(unstable.err, "warning: a fallback rule took " + summary["steps_fallback"].as<std::string>() +
+                              " integrations that the integrator could not take: decrease step, or set another "
+                              "integrator\n");
   EXPECT_EQ(run(command + "exponential --set step=0.02").err, "");
+}
+
+TEST_F(Replay, RefusesToReplaceWhatItReads) {
+  folder_.write("hand.tum", motion_text(lifting_hand()));
+  folder_.write("a.fork.csv", motion_text(lifting_hand()));
+  folder_.write("settings.yaml", "step: 0.02\n");
+  const std::pair<const char*, const char*> bad[] = {
+      {"--motion hand.tum --out ./box.urdf", "./box.urdf"},
+      {"--motion hand.tum --out hand.tum", "hand.tum"},
+      {"--motion hand.tum --settings settings.yaml --out settings.yaml", "settings.yaml"},
+      {"--motion a.fork.csv --out a.csv", "a.csv"}};
+  const std::string scene = content(path("box.urdf"));
+  for (const auto& [arguments, out] : bad) {
+    expect_refused("--scene box.urdf " + std::string(arguments),
+                   {"command line: --out: invalid value '" + std::string(out) + "': expected a file that is not read"});
+  }
+  EXPECT_EQ(content(path("box.urdf")), scene);
 }
 
 TEST_F(Replay, WarnsOfAHandInMillimetresAndOfOneThatHoldsNothing) {

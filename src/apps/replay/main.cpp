@@ -31,14 +31,6 @@ std::map<std::size_t, Motion> load_motions(const Options& options) {
   return motions;
 }
 
-/// RUN.csv → RUN.fork.csv
-std::string fork_path(const std::string& path) {
-  const std::string ending = ".csv";
-  const bool has_ending =
-      path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
-  return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
-}
-
 /// Pose of the object that the probe touches.
 RigidTransform touched_pose(const simulation::Simulation& simulation, const tools::ToolState& tool) {
   for (const bodies::BodyState& object : simulation.objects()) {

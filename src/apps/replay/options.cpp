@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include <filesystem>
 #include <regex>
 #include <sstream>
 
@@ -74,7 +75,26 @@ void check_complete(const Options& options) {
   if (options.out.empty()) validation::refuse_missing(command_line, "--out", "path of the CSV file to write");
 }
 
+void check_not_read(const Options& options, const std::string& settings) {
+  std::vector<std::string> read = options.motions;
+  read.insert(read.end(), {options.scene, options.bag, settings});
+  for (const std::string& input : read) {
+    for (const std::string& output : {options.out, fork_path(options.out)}) {
+      std::error_code there_is_none;
+      if (std::filesystem::equivalent(input, output, there_is_none))
+        validation::refuse(command_line, "--out", options.out, "a file that is not read, and neither is its .fork.csv");
+    }
+  }
+}
+
 }  // namespace
+
+std::string fork_path(const std::string& path) {
+  const std::string ending = ".csv";
+  const bool has_ending =
+      path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
+}
 
 std::optional<Options> parse_options(int argc, char** argv) {
   Options options;
@@ -93,6 +113,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
     return std::nullopt;
   }
   check_complete(options);
+  check_not_read(options, settings);
   if (!options.parent.empty()) options.given.emplace_back(command_line, "--parent");
   if (!options.child.empty()) options.given.emplace_back(command_line, "--child");
   if (options.parent.empty()) options.parent = "workbench";
@@ -131,7 +152,7 @@ replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [
   --hand-only plays only the poses and buttons of such a bag, with the settings given
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; takes precedence over --settings
-  --out       writes RUN.csv and RUN.fork.csv; nothing is written if anything fails
+  --out       writes or replaces RUN.csv and RUN.fork.csv; nothing is written if anything fails
 
 Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless grasp.object
 names an object, which the first hand then holds; the buttons are then ignored.

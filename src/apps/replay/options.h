@@ -28,6 +28,9 @@ struct Options {
 /// invalid arguments or settings.
 std::optional<Options> parse_options(int argc, char** argv);
 
+/// RUN.csv → RUN.fork.csv
+std::string fork_path(const std::string& path);
+
 /// Throws InputError if something was given that a journal determines, so that it would have no effect.
 void check_beside_journal(const Options& options);
 

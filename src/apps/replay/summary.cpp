@@ -68,8 +68,8 @@ std::vector<std::string> Summary::warnings() const {
                     " samples were rejected: positions are in metres, times in seconds, limits in input.*");
   }
   if (advance.steps_fallback * fallback_share > static_cast<double>(advance.steps)) {
-    found.push_back("the integrator did not take " + std::to_string(advance.steps_fallback) + " of about " +
-                    std::to_string(advance.steps) + " steps, another rule did: decrease step, or choose another");
+    found.push_back("a fallback rule took " + std::to_string(advance.steps_fallback) +
+                    " integrations that the integrator could not take: decrease step, or set another integrator");
   }
   if (!held_) found.push_back("no object was held or probed: grasp with the button, or name one in grasp.object");
   return found;
