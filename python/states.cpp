@@ -141,8 +141,9 @@ void bind_report(py::module& module) {
           "steps_unbounded", &AdvanceReport::steps_unbounded,
           "Number of integrations (in contact several a step) without an error bound: all, unless the setting "
           "`error_bound` is on.")
-      .def_readonly("energy_balance", &AdvanceReport::energy_balance,
-                    "Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J].")
+      .def_readonly(
+          "energy_balance", &AdvanceReport::energy_balance,
+          "Energy added beyond the work of hand, gravity, contact and damping [J]; if stiffest_omega_dt is below 1.")
       .def_readonly("energy_error", &AdvanceReport::energy_error, "Sum of the steps' estimated errors in energy [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
                     "Angular frequency of the stiffest mode times the step.")

@@ -248,7 +248,7 @@ class AdvanceReport:
         `error_bound` is on."""
     @property
     def energy_balance(self) -> float:
-        """Energy added by integration errors, beyond the work of hand, gravity, contact and damping [J]."""
+        """Energy added beyond the work of hand, gravity, contact and damping [J]; if stiffest_omega_dt is below 1."""
     @property
     def energy_error(self) -> float:
         """Sum of the steps' estimated errors in energy [J]."""
@@ -269,7 +269,8 @@ class AdvanceReport:
         """Number of steps in which contact did not allow an object to move."""
     @property
     def steps_unsolved(self) -> int:
-        """Number of steps or parts of one, near other movable objects, accepted although a contact missed its law by 1 um."""
+        """Number of steps or parts of one, near other movable objects, accepted although a contact missed its law by
+        1 um."""
     @property
     def time_lost(self) -> float:
         """Time during which a body did not follow its equation of motion [s]."""
@@ -380,9 +381,9 @@ class Simulation:
     def save(self) -> SimulationState:
         """Returns the whole state."""
     def restore(self, state: SimulationState) -> None:
-        """Restores a state saved by a simulation with the same scene and settings, which then continues bit-identically.
-        Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of the fork
-        differ; other settings are not compared."""
+        """Restores a state saved by a simulation with the same scene and settings, which then continues
+        bit-identically. Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of
+        the fork differ; other settings are not compared."""
     @property
     def state_hash(self) -> str:
         """Hash of the whole state: 16 hexadecimal digits."""
