@@ -69,7 +69,8 @@ const std::vector<Entry>& entries() {
              &T::dead_band_distance),
       number("dead_band.angle", "rad", between(0.0, 0.5), "the same for its rotation; 0: off", &T::dead_band_angle),
       {{"on_loss", "–", "one of " + validation::join(names_of(OnLoss())), validation::name_of(T().on_loss),
-        "after `input.loss_timeout`: freeze: the object stays where the hand was last; release: the object is "
+        "after `input.loss_timeout`: freeze: the hand counts as at rest at its last pose and holds the object there; "
+        "release: the object is "
         "released"},
        [](const auto& node, const auto& where, const auto& name, T& settings) {
          settings.on_loss = config::read_named<OnLoss>(node, where, name);

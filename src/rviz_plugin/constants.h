@@ -14,8 +14,6 @@ constexpr double longest_silence = 2.0;
 constexpr double settling = 0.7;
 /// Time in which a cycle in the plot fades to the colour of the older ones [s]. Test: none: appearance.
 constexpr double plot_fading = 10.0;
-/// Number of cells along each axis of the plot. If fewer, points are coarser. Test: none: appearance.
-constexpr int plot_cells = 150;
 /// Number of positions of a logarithmic slider. If fewer, values are coarser. Test: none: appearance.
 constexpr int slider_positions = 1000;
 /// Time from closing rviz's windows until it exits without waiting for the ROS master [s]. If longer, rviz exits later

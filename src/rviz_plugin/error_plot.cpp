@@ -17,8 +17,11 @@ struct Decades {
 constexpr Decades times{-5.0, -1.0};    // [s]
 constexpr Decades errors{-13.0, -3.0};  // [m]
 
+/// As many cells along each axis as the plot has pixels at its usual size.
+const QSize cells(220, 120);
+
 std::pair<int, int> cell_of(double wall_time, double error) {
-  return {std::lround(plot_cells * times.place(wall_time)), std::lround(plot_cells * errors.place(error))};
+  return {std::lround(cells.width() * times.place(wall_time)), std::lround(cells.height() * errors.place(error))};
 }
 
 }  // namespace
@@ -45,6 +48,8 @@ void ErrorPlot::refresh(double now) {
   now_ = now;
   update();
 }
+
+QSize ErrorPlot::sizeHint() const { return cells; }
 
 void ErrorPlot::paintEvent(QPaintEvent*) {
   QPainter painter(this);
@@ -74,11 +79,11 @@ void ErrorPlot::paintEvent(QPaintEvent*) {
   painter.drawText(at(0.5, 0.0) + QPointF(-10.0, 13.0), "1 ms");
   painter.drawText(at(1.0, 0.0) + QPointF(-30.0, 13.0), "100 ms");
   painter.setPen(Qt::NoPen);
-  const auto paint = [&](const Cells& cells, QColor color) {
-    for (const auto& [cell, last] : cells) {
+  const auto paint = [&](const Cells& points, QColor color) {
+    for (const auto& [cell, last] : points) {
       color.setAlphaF(std::clamp(1.0 - (now_ - last) / plot_fading, 0.35, 1.0));
       painter.setBrush(color);
-      painter.drawEllipse(at(cell.first / double(plot_cells), cell.second / double(plot_cells)), 1.5, 1.5);
+      painter.drawEllipse(at(cell.first / double(cells.width()), cell.second / double(cells.height())), 1.5, 1.5);
     }
   };
   paint(estimates_, QColor(90, 190, 250));

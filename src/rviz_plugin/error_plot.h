@@ -20,7 +20,7 @@ class ErrorPlot : public QWidget {
   void clear();
   /// Redraws at time `now` [s].
   void refresh(double now);
-  QSize sizeHint() const override { return {220, 120}; }
+  QSize sizeHint() const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;

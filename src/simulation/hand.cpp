@@ -6,6 +6,7 @@
 #include "constants.h"
 #include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/tools/calibration.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::simulation {
 Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, objects::Objects& objects, tools::Tool tool)
