@@ -1,6 +1,7 @@
 #include "spring_workbench/rod/settings.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "spring_workbench/validation/names.h"
 
@@ -18,16 +19,17 @@ const std::vector<std::string>& names_of(DampingLaw) {
 
 std::string in_words(const ForkSettings& fork) {
   const auto all = [](const PerDof& v, const std::string& force, const std::string& moment) {
-    return validation::number_text(v.stretch) + force + ", " + validation::number_text(v.bend) + force + ", " +
-           validation::number_text(v.torsion) + moment;
+    std::ostringstream text;
+    text << v.stretch << force << ", " << v.bend << force << ", " << v.torsion << moment;
+    return text.str();
   };
   const bool ratios = fork.damping_law != DampingLaw::coefficients;
   std::vector<std::string> on;
   if (fork.dofs.stretch) on.push_back("stretch");
   if (fork.dofs.bend) on.push_back("bend");
   if (fork.dofs.torsion) on.push_back("torsion");
-  return "stiffness " + all(fork.stiffness, " N/m", " N·m/rad") + "; damping " +
-         all(fork.damping(), ratios ? "" : " N·s/m", ratios ? "" : " N·m·s/rad") + " (" +
+  return "stiffness " + all(fork.stiffness, " N/m", " N m/rad") + "; damping " +
+         all(fork.damping(), ratios ? "" : " N s/m", ratios ? "" : " N m s/rad") + " (" +
          validation::name_of(fork.damping_law) + "); DOFs on: " + (on.empty() ? "none" : validation::join(on));
 }
 

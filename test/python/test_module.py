@@ -197,6 +197,11 @@ def test_damping_values_belong_to_a_law():
     fork = simulation.tool()
     assert (fork.damping_law, fork.damping_coefficient.tolist()) == ("coefficients", [30.0, 2.0, 0.01])
     assert fork.damping_ratio.tolist() == [1.0, 1.0, 1.0]
+    words = simulation.change(damping_ratio=[0.7, 0.7, 0.7], dofs=[None, None, False]).message
+    assert words.startswith("set: stiffness 2000 N/m, 500 N/m, 5 N m/rad; damping 30 N s/m, 2 N s/m, 0.01 N m s/rad")
+    assert words.endswith("(coefficients); DOFs on: stretch, bend")  # without strain nothing has to return to zero
+    words = simulation.change(dofs=[False, True, True]).message  # it is stretched by the weight
+    assert "DOFs on: bend, torsion; the strain of a DOF that was switched off returns to zero" in words
     simulation.change(damping_law="modal", damping=[0.5, 0.5, 0.5])
     assert "per_dof" in simulation.change(damping=[0.5, 0.6, 0.7]).message
     assert simulation.tool().damping_ratio.tolist() == [0.5, 0.6, 0.7]

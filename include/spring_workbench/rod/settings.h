@@ -101,7 +101,7 @@ struct ForkChange {
 /// Returns the change that gives any fork the springs, dampers and DOFs of `fork`; shape and length are not changed.
 ForkChange change_to(const ForkSettings& fork);
 
-/// The springs, the damping values in force and the DOFs that are on: "stiffness 2000 N/m, 500 N/m, 5 N·m/rad; …".
+/// The springs, the damping values in force and the DOFs that are on: "stiffness 2000 N/m, 500 N/m, 5 N m/rad; …".
 std::string in_words(const ForkSettings& fork);
 
 /// Coefficient [N·s/m] of the damper in parallel with the fork's stretch spring, for a body of `mass` [kg] that is held
