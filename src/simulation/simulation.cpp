@@ -530,7 +530,7 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
     std::string message = fork.empty() && dynamics.empty() ? "nothing changed" : "set";
     for (Hand* of : impl_->chosen(hand)) {
       const rod::ForkSettings next = fork.applied_to(of->fork());
-      if (!fork.empty()) message = "set: " + rod::in_words(next);
+      if (!fork.empty() && message == "set") message += ": " + rod::in_words(next);
       if (next.changeable() != of->fork().changeable()) of->change_fork(fork, message);
     }
     if (dynamics.empty()) return message;
