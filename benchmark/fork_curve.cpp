@@ -149,7 +149,7 @@ std::vector<ForkCurveRow> measure_fork_curves() {
       const Section& tip = exact.back();
       const rod::StrainVector q = strain_to_tip(*shape, tip);
       const RigidTransform X_WE =
-          make_transform(Quaterniond(Eigen::AngleAxisd(tip[0], Vector3d::UnitY())), Vector3d(tip[2], 0.0, tip[3]));
+          make_transform(Vector3d(tip[2], 0.0, tip[3]), Quaterniond(Eigen::AngleAxisd(tip[0], Vector3d::UnitY())));
       rows.push_back(measure("rod", exact, [&] { return fork_mesh::rod_curve(*shape, q, X_WH); }));
       rows.push_back(measure("bezier", exact, [&] { return fork_mesh::bezier_curve(X_WH, X_WE, 1.0, 0.0); }));
       for (std::size_t i = rows.size() - 2; i < rows.size(); ++i) {

@@ -18,7 +18,7 @@ PoseSource poses_of_function(const Scenario& scene, double h) {
   return [&scene, h](std::size_t i) -> motion::PoseSample {
     const double t = i < 2 ? 0.0 : static_cast<double>(i - 1) * h;
     const HandState handle = handle_state(scene, t);
-    motion::PoseSample pose{t, make_transform(Quaterniond(handle.R_WT), handle.p_WT)};
+    motion::PoseSample pose{t, make_transform(handle.p_WT, Quaterniond(handle.R_WT))};
     if (i != 1) return pose;
     pose.t = soon;
     pose.X.translation() += soon * handle.v_WT_W;

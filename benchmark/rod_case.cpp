@@ -121,7 +121,7 @@ std::vector<motion::PoseSample> read_motion(const std::string& path) {
     std::istringstream in(line);
     double t, x, y, z, qx, qy, qz, qw;
     if (in >> t >> x >> y >> z >> qx >> qy >> qz >> qw) {
-      samples.push_back({t, make_transform(Quaterniond(qw, qx, qy, qz).normalized(), {x, y, z})});
+      samples.push_back({t, make_transform({x, y, z}, Quaterniond(qw, qx, qy, qz).normalized())});
     }
   }
   return samples;

@@ -29,7 +29,7 @@ std::vector<RigidTransform> recorded_poses(const RodCase& one) {
       if (column != 1) v.push_back(std::stod(cell));
     }
     if (v.size() != 8 || std::abs(v[0] - times[poses.size()]) > 1e-6) break;
-    poses.push_back(make_transform(Quaterniond(v[7], v[4], v[5], v[6]).normalized(), {v[1], v[2], v[3]}));
+    poses.push_back(make_transform({v[1], v[2], v[3]}, Quaterniond(v[7], v[4], v[5], v[6]).normalized()));
   }
   if (poses.size() != times.size()) {
     throw std::runtime_error(one.recorded + ": fewer rows than outputs at 50 Hz to " + std::to_string(one.duration) +

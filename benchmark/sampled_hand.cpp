@@ -10,7 +10,7 @@ namespace spring_workbench::benchmark {
 SampledHand::SampledHand(std::vector<motion::PoseSample> poses, double length) : poses_(std::move(poses)) {
   motion::PoseTrack track;
   for (const motion::PoseSample& sample : poses_) track.push(sample);
-  const RigidTransform X_HT = make_transform(Quaterniond::Identity(), length * Vector3d::UnitZ());
+  const RigidTransform X_HT = make_transform(length * Vector3d::UnitZ(), Quaterniond::Identity());
   for (std::size_t i = 0; i + 1 < poses_.size(); ++i) {
     handle_.push_back(track.segment(poses_[i].t));
     tip_.push_back(handle_.back().of_frame(X_HT));

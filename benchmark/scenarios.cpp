@@ -165,7 +165,7 @@ Scenario with_sampled_hand(Scenario scene) {
   for (std::size_t i = 0; i < output_times(scene).size() + beyond; ++i) {
     const double t = static_cast<double>(i) * scene.output_interval;
     const HandState handle = handle_state(scene, t);
-    poses.push_back({t, make_transform(Quaterniond(handle.R_WT), handle.p_WT)});
+    poses.push_back({t, make_transform(handle.p_WT, Quaterniond(handle.R_WT))});
   }
   scene.samples = std::make_shared<const SampledHand>(std::move(poses), scene.length);
   return scene;

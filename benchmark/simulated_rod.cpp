@@ -72,7 +72,7 @@ RodRun run_simulated(const RodCase& one, const std::string& shape, const std::st
       newest[0] = std::exchange(newest[1], next.t);
       next = poses(++pushed);
     }
-    const simulation::AdvanceReport report = simulation.advance(t);
+    const simulation::AdvanceReport report = simulation.advance_to(t);
     run.steps += report.steps;
     run.steps_fallback += report.steps_fallback;
     run.X_WO.push_back(simulation.objects()[0].X_WO);

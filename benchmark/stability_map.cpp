@@ -51,7 +51,7 @@ class CellRun {
 
   /// Returns false if there is no point in continuing.
   bool advance(double t) {
-    const simulation::AdvanceReport report = simulation_.advance(t);
+    const simulation::AdvanceReport report = simulation_.advance_to(t);
     outcome_.refused += report.steps_rejected;
     outcome_.steps += static_cast<int>(report.steps);
     outcome_.stops += report.stops;

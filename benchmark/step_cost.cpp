@@ -60,7 +60,7 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
   const auto note = [&](const char* part, auto&& call) {
     costs.push_back({shape, body.size(), part, min_nanoseconds(calls, call)});
   };
-  note("hand at one moment", [&](int i) { sink = body.forcing(hand[1], h * (1.0 + 0.001 * i)).angular_velocity[0]; });
+  note("hand at one moment", [&](int i) { sink = body.forcing(hand[1], h * (1.0 + 0.001 * i)).w_WH_H[0]; });
   note("tip", [&](int) {
     body.shape().tip(full.q, full.q_dot, tip);
     sink = tip.p_HE[0];
@@ -90,7 +90,7 @@ simulation::Simulation simulation_of(const RodCase& one, const Settings& setting
   scene.bench_height = -2.0;
   simulation::Simulation simulation(scene, settings);
   for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
-  if (grasped) simulation.advance(interval);
+  if (grasped) simulation.advance_to(interval);
   return simulation;
 }
 
@@ -104,7 +104,7 @@ double advance_cost(const RodCase& one, const Settings& settings, Change&& chang
     const double begin = thread_nanoseconds();
     for (int i = 2; i < calls; ++i) {
       change(simulation, i % 2 == 0);
-      simulation.advance(i * interval);
+      simulation.advance_to(i * interval);
     }
     best = std::min(best, (thread_nanoseconds() - begin) / (calls - 2));
   }
@@ -117,7 +117,7 @@ double grasp_cost(const RodCase& one, const Settings& settings) {
   for (int run = 0; run < calls; ++run) {
     simulation::Simulation simulation = simulation_of(one, settings, false);
     const double begin = thread_nanoseconds();
-    simulation.advance(interval);
+    simulation.advance_to(interval);
     best = std::min(best, thread_nanoseconds() - begin);
   }
   return best;

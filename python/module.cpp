@@ -21,7 +21,7 @@ RigidTransform pose(const std::vector<double>& position, const std::vector<doubl
   const Vector3d p(position[0], position[1], position[2]);
   check(p.allFinite() && q.coeffs().allFinite(), "expected finite numbers");
   check(q.norm() > 0.0, "quaternion: invalid value '0 0 0 0': expected a nonzero quaternion");
-  return make_transform(q, p);
+  return make_transform(p, q);
 }
 
 }  // namespace

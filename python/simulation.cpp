@@ -90,7 +90,7 @@ void bind_scene(py::module& module) {
                     "Bodies, materials and gravity of a scene, read from a URDF and the YAML file next to it.")
       .def_readonly("name", &Scene::name, "Name of the scene: that of its URDF file, without .urdf.")
       .def_readonly("path", &Scene::path, "Path of the URDF.")
-      .def_readonly("gravity", &Scene::gravity, "Gravity along -z of the world [m/s2].")
+      .def_readonly("gravity", &Scene::gravity, "Gravity along -z of the world [m/s²].")
       .def_property_readonly(
           "contact", [](const Scene& s) { return word(s.contact); }, "Contact mode: none, stop or dynamic.")
       .def_readonly("tool", &Scene::tool, "Name of the tool with which each hand starts.")
@@ -114,7 +114,8 @@ Raises InputError if a file cannot be read or is not valid.)");
 
 void bind_state_access(py::class_<Simulation>& type) {
   type.def_property_readonly("time", &Simulation::time, "Simulated time [s].")
-      .def_property_readonly("newest_sample", &Simulation::newest_sample, "Time of the newest sample of any hand [s].")
+      .def_property_readonly("newest_sample_time", &Simulation::newest_sample_time,
+                             "Time of the newest sample of any hand, or `time` if there is none [s].")
       .def_property_readonly("names", &names, "Names of the movable objects, in the order of all arrays.")
       .def_property_readonly(
           "poses",
@@ -133,7 +134,7 @@ void bind_state_access(py::class_<Simulation>& type) {
           "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
           "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
       .def_property_readonly("contacts", &Simulation::contacts,
-                             "Current contacts, and those that ended in the last call of `advance`: a list of "
+                             "Current contacts, and those that ended in the last call of `advance_to`: a list of "
                              "ContactState.")
       .def("tool", &Simulation::tool, py::arg("hand") = 0, "Returns the state of the tool in a hand.")
       .def_property_readonly("elastic_energy", &Simulation::elastic_energy, "Energy stored in all tools [J].")
@@ -148,7 +149,7 @@ void bind_state_access(py::class_<Simulation>& type) {
            "Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of the fork "
            "differ; other settings are not compared.")
       .def_property_readonly(
-          "state_hash", [](const Simulation& s) { return simulation::to_hex(s.state_hash()); },
+          "state_hash", [](const Simulation& s) { return math::to_hex(s.state_hash()); },
           "Hash of the whole state: 16 hexadecimal digits.");
 }
 
@@ -158,7 +159,7 @@ void bind_changes(py::class_<Simulation>& type) {
           [](Simulation& s, const std::string& tool, std::optional<std::size_t> hand) {
             return s.select_tool(value_of<tools::Tool>(tool, "tool"), hand);
           },
-          py::arg("tool"), py::arg("hand") = 0,
+          py::arg("tool"), py::arg("hand") = py::none(),
           "Changes the tool in a hand, or with None in each, to spring, spring_fork, spring_probe, direct or ray. What "
           "it holds stays in hand, except with spring_probe.")
       // By name only, says the stub: pybind11 before 2.6 cannot.
@@ -235,7 +236,8 @@ void bind_settings(py::module& module) {
       .def_readonly("meaning", &SettingDescription::meaning, "What the setting does.");
   module.def("setting_descriptions", &simulation::setting_descriptions, "Returns the descriptions of all settings.");
   py::class_<SimulationSettings>(module, "SimulationSettings",
-                                 "Settings of a simulation; setting_descriptions() explains them.")
+                                 "Settings of a simulation by key, checked when they are set; setting_descriptions() "
+                                 "explains them. They cannot be read back: keep the dictionary.")
       .def(py::init(&to_settings), py::arg("values") = py::dict(),
            "values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown "
            "key, a wrong type or a value that is not allowed.")
@@ -247,8 +249,16 @@ void bind_simulation(py::module& module) {
   bind_scene(module);
   py::class_<Simulation> type(module, "Simulation", R"(Simulation of a scene with hands and their tools.
 
-It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus, at
-most the setting `styluses` - 1; another raises InputError, a negative one TypeError.)");
+    simulation = Simulation(load_scene("box.urdf"))
+    for t in (0.0, 0.5, 1.0):  # the hand moves up; the fork points down, into the box
+        simulation.push_stylus(t, pose([0.0, 0.0, 0.24 + 0.1 * t], [1.0, 0.0, 0.0, 0.0]))
+    simulation.push_button(0.0, True)
+    simulation.advance_to(1.0)
+    print(simulation.poses[0][:3, 3])
+
+It reads no clock and starts no thread; the same calls give bit-identical results. Not thread-safe; a copy is a new
+Simulation that restores a saved state. `hand` is 0 for the first stylus (nodes count styluses from 1), at most the
+setting `styluses` - 1; another raises InputError, a negative one TypeError. Arrays are copies.)");
   type.def(
           py::init([](const scene::Scene& scene, const std::variant<SimulationSettings, py::dict>& settings) {
             if (const auto* ready = std::get_if<SimulationSettings>(&settings)) return Simulation(scene, *ready);
@@ -291,7 +301,7 @@ the next one, at most for external_wrench_timeout. Raises InputError if a value 
 
 As push_stylus, it ignores each pose whose time is not later than that of the newest one. Raises InputError if a pose is
 invalid.)")
-      .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
+      .def("advance_to", &Simulation::advance_to, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
            R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
 If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act. Raises

@@ -59,21 +59,25 @@ void bind_tool(py::module& module) {
           "Damping law: per_dof, modal or coefficients.")
       .def_property_readonly(
           "strain", [](const ToolState& s) { return to_array(s.strain); },
-          "Strain coordinates of the shape model; shape (n,), n at most 6.")
+          "Strain coordinates of the shape model: bend and torsion [1/m], stretch [-]; for bushing displacements [m] "
+          "and a rotation vector [rad]. Zero while nothing is held; shape (n,), n at most 6.")
       .def_readonly("stretch", &ToolState::stretch, "Extension along the fork [m].")
       .def_property_readonly(
           "bend", [](const ToolState& s) { return to_array(s.bend); },
           "Deflection of the tip along x and y of the handle [m]; shape (2,).")
       .def_readonly("torsion", &ToolState::torsion, "Twist angle [rad].")
       .def_property_readonly(
-          "stylus", [](const ToolState& s) { return to_array(s.X_WS); }, "Pose of the stylus; shape (4, 4).")
+          "stylus_pose", [](const ToolState& s) { return to_array(s.X_WS); },
+          "Pose of the stylus in world; shape (4, 4).")
       .def_property_readonly(
-          "handle", [](const ToolState& s) { return to_array(s.X_WH); }, "Pose of the handle; shape (4, 4).")
+          "handle_pose", [](const ToolState& s) { return to_array(s.X_WH); },
+          "Pose of the handle in world; shape (4, 4).")
       .def_property_readonly(
-          "proxy_handle", [](const ToolState& s) { return to_array(s.X_WH_proxy); },
-          "Pose from which the fork acts; it lags behind `handle` if the object cannot follow; shape (4, 4).")
+          "proxy_handle_pose", [](const ToolState& s) { return to_array(s.X_WH_proxy); },
+          "Pose of the proxy handle, from which the fork acts, in world; it lags behind `handle_pose` if the object "
+          "cannot follow; shape (4, 4).")
       .def_property_readonly(
-          "tip", [](const ToolState& s) { return to_array(s.X_WE); }, "Pose of the tip; shape (4, 4).")
+          "tip_pose", [](const ToolState& s) { return to_array(s.X_WE); }, "Pose of the tip in world; shape (4, 4).")
       .def_property_readonly(
           "tip_wrench", [](const ToolState& s) { return to_array(s.tip_wrench_W); },
           "Force [N] and moment [N m] on the object at the tip, world axes; shape (6,).")
@@ -83,21 +87,23 @@ void bind_tool(py::module& module) {
       .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the fork [J].")
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
       .def_readonly("error_bound", &ToolState::error_bound,
-                    "Bound on the error of integration in position, since the grasp or the last step without a bound "
-                    "[m], rounding excluded; None if the setting `error_bound` is off or, e.g., in contact.")
-      .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
-      .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
+                    "Estimate from above, not rigorous, of the error of integration in position since the grasp or the "
+                    "last step without one [m]; None if the setting `error_bound` is off or, e.g., in contact.")
+      .def_readonly("weight", &ToolState::weight,
+                    "Reading as a scale: upward force on the object divided by g, a mass [vkg: virtual kg].")
+      .def_readonly("torque", &ToolState::torque,
+                    "Reading as a torque wrench: moment about the tool's axis at the tip [N m].")
       .def_readonly("stretching_force", &ToolState::stretching_force,
-                    "Force along the tool's axis at the handle, > 0 in tension [N] (the paper, section 4).")
-      .def_readonly("bending_force", &ToolState::bending_force, "Force perpendicular to that axis [N].")
+                    "Axial force at the handle, > 0 in tension [N] (the paper, section 4).")
+      .def_readonly("bending_force", &ToolState::bending_force, "Transverse force at the handle [N].")
       .def_readonly("force_angle", &ToolState::force_angle,
-                    "Angle between that axis and the force on the tool, 0 to pi [rad].")
+                    "Angle between the tool's axis and the force on it, 0 to pi [rad].")
       .def_readonly("load", &ToolState::load, "Load as a fraction of the scene's range of loads, 0 to 1.")
       .def_readonly("clutch", &ToolState::clutch, "True while the hand moves without the tool.")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
                     "Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading.")
       .def_readonly("material_stiffness_uncertainty", &ToolState::material_stiffness_uncertainty,
-                    "One standard deviation of that reading [N/m].");
+                    "One standard deviation of `material_stiffness` [N/m].");
 }
 
 void bind_contact(py::module& module) {
@@ -121,47 +127,51 @@ void bind_contact(py::module& module) {
 
 void bind_report(py::module& module) {
   using simulation::AdvanceReport;
-  py::class_<AdvanceReport>(module, "AdvanceReport", "Report of one call of `advance`.")
+  py::class_<AdvanceReport>(module, "AdvanceReport",
+                            "Report of one call of `advance_to`. Error bounds are empirical estimates from above, not "
+                            "rigorous (doc/model.md). An integration is one solution of the equation of motion over a "
+                            "step or a part of one: in contact there are several in a step.")
       .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
       .def_readonly("substeps", &AdvanceReport::substeps,
-                    "Number of steps discarded and repeated as shorter ones (equation not solved, or error too large).")
+                    "Number of steps that were discarded and repeated as shorter ones, since the equation was not "
+                    "solved or the error too large (other engines call a part of a step that is taken a substep).")
       .def_readonly("simulated_time", &AdvanceReport::simulated_time, "Time simulated by this call [s].")
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
       .def_readonly("angle_error", &AdvanceReport::angle_error,
                     "Largest estimate of a step's local error in the angle [rad].")
       .def_readonly("local_error_bound", &AdvanceReport::local_error_bound,
-                    "Largest bound on a step's local error in position [m]; None if no step has one.")
-      .def_readonly(
-          "error_bound", &AdvanceReport::error_bound,
-          "Largest bound on the error of integration in position, since the grasp or the last step without a bound "
-          "[m]; None if no step has one, e.g. without the setting `error_bound`.")
+                    "Largest bound of a step's local error in position [m]; None if no step has one.")
+      .def_readonly("error_bound", &AdvanceReport::error_bound,
+                    "Largest bound of an object's error in position since its grasp, or since its last step without a "
+                    "bound [m]; None if no step has one, e.g. without the setting `error_bound`.")
       .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound,
-                    "The same bound for the orientation [rad]; see `error_bound`.")
-      .def_readonly(
-          "steps_unbounded", &AdvanceReport::steps_unbounded,
-          "Number of integrations (in contact several a step) without an error bound: all, unless the setting "
-          "`error_bound` is on.")
-      .def_readonly(
-          "energy_balance", &AdvanceReport::energy_balance,
-          "Energy added beyond the work of hand, gravity, contact and damping [J]; if stiffest_omega_dt is below 1.")
+                    "Largest bound of an object's error in angle since its grasp, or since its last step without a "
+                    "bound [rad]; None if no step has one.")
+      .def_readonly("integrations_without_bound", &AdvanceReport::integrations_without_bound,
+                    "Number of integrations without an error bound: all, unless the setting `error_bound` is on.")
+      .def_readonly("energy_balance", &AdvanceReport::energy_balance,
+                    "Energy of the held object and the fork beyond the work of hand, gravity, damping and contact [J]; "
+                    "meaningful if stiffest_omega_dt is below about 1.")
       .def_readonly("energy_error", &AdvanceReport::energy_error, "Sum of the steps' estimated errors in energy [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
-                    "Angular frequency of the stiffest mode times the step.")
+                    "Largest product of the stiffest mode's angular frequency and the step.")
       .def_readonly("collision_queries", &AdvanceReport::collision_queries,
                     "Number of queries to the collision library.")
       .def_readonly("stops", &AdvanceReport::stops,
-                    "Number of steps that met the end of the fork's range (fully compressed or wound up).")
+                    "Number of steps in which the fork reached the end of its range (fully compressed or wound up); "
+                    "unrelated to the contact mode stop.")
       .def_readonly("steps_fallback", &AdvanceReport::steps_fallback,
                     "Number of integrations by an L-stable rule, since the integrator's own equation was not solved.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
-                    "Number of steps in which contact did not allow an object to move.")
+                    "Number of steps in which no admissible motion of an object was found, so that it stayed in place.")
       .def_readonly("steps_unsolved", &AdvanceReport::steps_unsolved,
-                    "Number of steps or parts of one, near other movable objects, accepted although a contact missed "
-                    "its law by 1 um.")
+                    "Number of steps, or parts of one, that were accepted although a contact among movable objects was "
+                    "left with a residual above 1 µm, was deeper than 0.1 mm, or was lost.")
       .def_readonly("time_lost", &AdvanceReport::time_lost,
-                    "Time during which a body did not follow its equation of motion [s].")
+                    "Time during which an object did not follow its equation of motion [s].")
       .def_readonly("steps_rejected", &AdvanceReport::steps_rejected,
-                    "Number of steps rejected because their result was not finite or bounded.")
+                    "Number of steps without a usable result (non-finite or out of range): the fork is rigid for that "
+                    "step or, in contact, the object stays.")
       .def_property_readonly("active", &AdvanceReport::active, "Names of the subsystems that ran.")
       .def_property_readonly("skipped", &AdvanceReport::skipped, "Names of the subsystems that were not needed.");
   using simulation::ChangeReport;
@@ -181,10 +191,11 @@ void bind_states(py::module& module) {
   bind_tool(module);
   bind_contact(module);
   bind_report(module);
-  py::class_<SimulationState>(module, "SimulationState",
-                              "Saved state of a whole simulation. It can be compared and pickled.")
+  py::class_<SimulationState>(
+      module, "SimulationState",
+      "Saved state of a whole simulation, from Simulation.save(). It can be compared and pickled.")
       .def_property_readonly(
-          "hash", [](const SimulationState& s) { return simulation::to_hex(s.hash()); },
+          "hash", [](const SimulationState& s) { return math::to_hex(s.hash()); },
           "Hash of the state, 16 hexadecimal digits: equal states have equal hashes on every machine.")
       .def(
           "__eq__", [](const SimulationState& a, const SimulationState& b) { return a == b; }, py::is_operator())
@@ -226,8 +237,9 @@ void bind_motions(py::module& module) {
         return motion;
       },
       py::arg("path"),
-      "Reads a recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml). Raises "
-      "InputError.");
+      R"(Reads a recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml).
+
+Raises InputError, with file and line, if it cannot be read or is not valid.)");
 }
 
 }  // namespace spring_workbench::python

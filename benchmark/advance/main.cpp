@@ -1,5 +1,5 @@
-// A fork in use, step by step; scripts/count_instructions counts the instructions of Simulation::advance with it, or of
-// a copy that looks ahead.
+// A fork in use, step by step; scripts/count_instructions counts the instructions of Simulation::advance_to with it, or
+// of a copy that looks ahead.
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -17,7 +17,7 @@ constexpr int steps_before = 100;  ///< steps until the object is in position
 constexpr char usage[] =
     "advance_steps SCENE.urdf none|free|pressed|ahead STEPS\n\n"
     "Carries the scene's object `box` with the default fork on a hand sampled at 50 Hz, by one call of\n"
-    "Simulation::advance for each of STEPS samples after the first 100. none: without contact; free: contact mode\n"
+    "Simulation::advance_to for each of STEPS samples after the first 100. none: without contact; free: contact mode\n"
     "`stop` with nothing near; pressed: on the bench, pressed down by about 2 N beyond its weight and dragged; ahead:\n"
     "as free, and a copy, as for the display, follows each step and advances 12 ms beyond it. Prints the steps taken,\n"
     "and those with contacts, of the last STEPS.\n";
@@ -28,15 +28,15 @@ RigidTransform hand_at(double t, double height, bool level) {
   const double rises = level ? 0.0 : 0.05 * std::sin(5.0 * t), turned = level ? 0.0 : 0.3;
   const Quaterniond R = Quaterniond(Eigen::AngleAxisd(turned * std::sin(3.0 * t), Vector3d(0.6, 0.0, 0.8))) *
                         Quaterniond(0.0, 1.0, 0.0, 0.0);
-  return make_transform(R, Vector3d(0.1 * std::sin(4.0 * t), 0.05 * std::sin(6.0 * t), height + 0.2 + rises));
+  return make_transform(Vector3d(0.1 * std::sin(4.0 * t), 0.05 * std::sin(6.0 * t), height + 0.2 + rises), R);
 }
 
 /// Takes over the state of `simulation` and advances to `t` [s], where the hand is known up to the sample `next`.
 [[gnu::noinline]] void look_ahead(simulation::Simulation& copy, const simulation::Simulation& simulation,
                                   const motion::PoseSample& next, double t) {
-  copy.follow(simulation);
+  copy.copy_state_from(simulation);
   copy.push_stylus(next);
-  copy.advance(t);
+  copy.advance_to(t);
 }
 
 int run(const std::string& path, const std::string& name, int steps) {
@@ -44,7 +44,7 @@ int run(const std::string& path, const std::string& name, int steps) {
   simulation::SimulationSettings settings;
   settings.contact = name == "none" ? scene::ContactMode::none : scene::ContactMode::stop;
   settings.grasp.object = "box";
-  settings.grasp.X_OE = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d::Zero());
+  settings.grasp.X_OE = make_transform(Vector3d::Zero(), Quaterniond(0.0, 1.0, 0.0, 0.0));
   settings.grasp.start_follow = true;
   simulation::Simulation simulation(scene::load_scene(path), settings), copy(scene::load_scene(path), settings);
   const double held = simulation.objects().front().X_WO.translation().z();
@@ -54,7 +54,7 @@ int run(const std::string& path, const std::string& name, int steps) {
     const double height = pressed ? held + 0.02 - 0.021 * lowered : held + 0.5;
     simulation.push_stylus({t, hand_at(t, height, pressed)});
     if (i < 2) continue;  // the hand is known two samples ahead
-    const simulation::AdvanceReport report = simulation.advance((i - 1) * interval);
+    const simulation::AdvanceReport report = simulation.advance_to((i - 1) * interval);
     if (name == "ahead")
       look_ahead(copy, simulation, {t + interval, hand_at(t + interval, height, pressed)}, t - 0.4 * interval);
     if (i < steps_before + 2) continue;

@@ -15,7 +15,7 @@ btTransform to_bullet(const RigidTransform& X) {
 RigidTransform from_bullet(const btTransform& X) {
   const btQuaternion q = X.getRotation();
   const btVector3& p = X.getOrigin();
-  return make_transform(Quaterniond(q.w(), q.x(), q.y(), q.z()), Vector3d(p.x(), p.y(), p.z()));
+  return make_transform(Vector3d(p.x(), p.y(), p.z()), Quaterniond(q.w(), q.x(), q.y(), q.z()));
 }
 
 class BulletBoxWorld final : public BoxWorld {

@@ -44,7 +44,7 @@ class BulletDrag : public DragWorld {
   RigidTransform box() const override {
     const btTransform& X = box_.getCenterOfMassTransform();
     const btQuaternion q = X.getRotation();
-    return make_transform(Quaterniond(q.w(), q.x(), q.y(), q.z()), from_bullet(X.getOrigin()));
+    return make_transform(from_bullet(X.getOrigin()), Quaterniond(q.w(), q.x(), q.y(), q.z()));
   }
 
  protected:

@@ -54,9 +54,9 @@ double step_cost(scene::ContactMode contact, const Carry& carry) {
   for (int i = 0; i <= warm + counted; ++i) {
     const double t = i * sample_time;
     const Vector3d p(x(t), 0.0, 0.5 * edge + set.fork.length + carry.height * std::min(1.0, t / 0.2));
-    simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p)});
+    simulation.push_stylus({t, make_transform(p, Quaterniond(0.0, 1.0, 0.0, 0.0))});
     const double begin = thread_nanoseconds();
-    simulation.advance(t);
+    simulation.advance_to(t);
     used += thread_nanoseconds() - begin;
     if (i <= warm) used = 0.0;
     if (i <= warm || (i - warm) % (counted / windows) != 0) continue;

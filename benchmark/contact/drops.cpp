@@ -109,7 +109,7 @@ DropResult run(const Drop& drop) {
   double min_energy = energy(t.body, s.objects()[0]), fastest = 0.0, end = 2.0;
   bool landed = false;
   for (int i = 1; held + i * t.step < end; ++i) {
-    const simulation::AdvanceReport report = s.advance(held + i * t.step);
+    const simulation::AdvanceReport report = s.advance_to(held + i * t.step);
     const bodies::BodyState& o = s.objects()[0];
     r.steps_blocked += report.steps_blocked;
     const double e = energy(t.body, o), vz = o.V_WO_W.linear.z();

@@ -101,7 +101,7 @@ MotionRun run(const Motion& motion, scene::ContactMode contact, double step) {
   ended.measured.to_the_end = true;
   for (int i = 1; i * sample_time < motion.duration + 1e-9; ++i) {
     const double begin = processor_time();
-    const simulation::AdvanceReport report = s.advance(held + i * sample_time);
+    const simulation::AdvanceReport report = s.advance_to(held + i * sample_time);
     const double spent = processor_time() - begin;
     ended.processor_time += spent;
     Measured& m = ended.measured;

@@ -123,8 +123,8 @@ class Hand {
   motion::PoseSample at(double t) const {
     const double in = minimum_jerk(t / pressing), along = minimum_jerk((t - pressing) / shifting);
     const Quaterniond down(0.0, 1.0, 0.0, 0.0);
-    return {t, make_transform(Quaterniond(Eigen::AngleAxisd(along * turn_, Vector3d::UnitZ())) * down,
-                              start_ + in * pressed_ + along * shifted_)};
+    return {t, make_transform(start_ + in * pressed_ + along * shifted_,
+                              Quaterniond(Eigen::AngleAxisd(along * turn_, Vector3d::UnitZ())) * down)};
   }
 
  private:
@@ -249,7 +249,7 @@ ExtremeOutcome run(const ExtremeCell& cell) {
   Watch watch(simulation);
   ExtremeOutcome outcome;
   for (int i = 1; i <= samples; ++i) {
-    const simulation::AdvanceReport report = simulation.advance(interval * i);
+    const simulation::AdvanceReport report = simulation.advance_to(interval * i);
     outcome.refused += report.steps_rejected;
     outcome.steps_blocked += report.steps_blocked;
     outcome.steps_unsolved += report.steps_unsolved;

@@ -21,7 +21,7 @@ inline simulation::Simulation let_go(const scene::Scene& scene, double step, dou
     X_WH.translation() -= set.fork.length * X_WH.linear().col(2);
     s.push_stylus({time, X_WH});
   }
-  s.advance(held);
+  s.advance_to(held);
   s.release();
   return s;
 }

@@ -38,11 +38,11 @@ Push push(double step) {
   for (int i = 0; i <= samples; ++i) {
     const double t = i * sample_time, u = std::min(1.0, t / 0.8);
     const Vector3d p(0.2 * u * u * (3.0 - 2.0 * u), 0.0, 0.06 + set.fork.length);
-    simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p)});
+    simulation.push_stylus({t, make_transform(p, Quaterniond(0.0, 1.0, 0.0, 0.0))});
   }
   for (int i = 1; i <= samples; ++i) {
     const double begin = processor_time();
-    simulation.advance(i * sample_time);
+    simulation.advance_to(i * sample_time);
     run.seconds += processor_time() - begin;
     for (const bodies::BodyState& object : simulation.objects()) run.p.push_back(object.X_WO.translation());
   }

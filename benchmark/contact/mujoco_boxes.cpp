@@ -84,7 +84,7 @@ class MujocoBoxWorld final : public BoxWorld {
     std::vector<RigidTransform> poses;
     for (std::size_t i = 1; i <= scene_.scene.bodies.size(); ++i) {
       const mjtNum *p = data_->xpos + 3 * i, *q = data_->xquat + 4 * i;
-      poses.push_back(make_transform(Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(p[0], p[1], p[2])));
+      poses.push_back(make_transform(Vector3d(p[0], p[1], p[2]), Quaterniond(q[0], q[1], q[2], q[3])));
     }
     return poses;
   }

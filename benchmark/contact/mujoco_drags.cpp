@@ -86,7 +86,7 @@ class MujocoDrag final : public DragWorld {
                            : (Eigen::AngleAxisd(q[6], Vector3d::UnitX()) * Eigen::AngleAxisd(q[7], Vector3d::UnitY()) *
                               Eigen::AngleAxisd(q[8], Vector3d::UnitZ()))
                                  .toRotationMatrix();
-    return make_transform(Quaterniond(R), Vector3d(q[0] + q[3], q[1] + q[4], q[2] + q[5]));
+    return make_transform(Vector3d(q[0] + q[3], q[1] + q[4], q[2] + q[5]), Quaterniond(R));
   }
 
  private:

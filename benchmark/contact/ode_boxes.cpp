@@ -62,8 +62,8 @@ class OdeBoxWorld final : public BoxWorld {
     std::vector<RigidTransform> poses;
     for (const dBodyID body : bodies_) {
       const dReal* q = dBodyGetQuaternion(body);
-      poses.push_back(make_transform(Quaterniond(q[0], q[1], q[2], q[3]),
-                                     Vector3d(Eigen::Map<const Vector3d>(dBodyGetPosition(body)))));
+      poses.push_back(make_transform(Vector3d(Eigen::Map<const Vector3d>(dBodyGetPosition(body))),
+                                     Quaterniond(q[0], q[1], q[2], q[3])));
     }
     return poses;
   }

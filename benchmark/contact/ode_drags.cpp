@@ -70,7 +70,7 @@ class OdeDrag final : public DragWorld {
   }
   RigidTransform box() const override {
     const dReal* q = dBodyGetQuaternion(box_);
-    return make_transform(Quaterniond(q[0], q[1], q[2], q[3]), Eigen::Map<const Vector3d>(dBodyGetPosition(box_)));
+    return make_transform(Eigen::Map<const Vector3d>(dBodyGetPosition(box_)), Quaterniond(q[0], q[1], q[2], q[3]));
   }
 
  private:

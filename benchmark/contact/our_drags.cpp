@@ -63,11 +63,11 @@ class OurDrag final : public DragWorld {
     for (int i = 0; sample_time * i < drag_duration + 0.5 * sample_time; ++i) {
       const double t = sample_time * i;
       const Vector3d p = drag_hand(drag, t).p_W + length * Vector3d::UnitZ();
-      simulation_.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p)});
+      simulation_.push_stylus({t, make_transform(p, Quaterniond(0.0, 1.0, 0.0, 0.0))});
     }
-    simulation_.advance(0.0);
+    simulation_.advance_to(0.0);
   }
-  void step(double t, double h) override { simulation_.advance(t + h); }
+  void step(double t, double h) override { simulation_.advance_to(t + h); }
   RigidTransform box() const override { return simulation_.objects()[0].X_WO; }
 
  private:

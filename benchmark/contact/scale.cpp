@@ -60,9 +60,9 @@ ScaleRow measure(scene::ContactMode contact, int objects) {
     const double t = sample_time * i, lifted = std::min(1.0, t / 0.2);
     const Vector3d p(0.1 * std::sin(3.0 * t), 0.1 * std::sin(4.0 * t),
                      0.5 * edge + 0.06 * lifted + settings.fork.length);
-    simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p)});
+    simulation.push_stylus({t, make_transform(p, Quaterniond(0.0, 1.0, 0.0, 0.0))});
     const double step_begin = processor_time();
-    simulation.advance(t);
+    simulation.advance_to(t);
     used += processor_time() - step_begin;
     if (i < steps_warm || (i - steps_warm) % steps_a_window != steps_a_window - 1) {
       if (i < steps_warm) used = 0.0;

@@ -125,7 +125,7 @@ ThrowResult run(const Throw& thrown) {
   double least = start.energy;
   ThrowResult r;
   for (double time = held + t.step; time < end; time += t.step) {
-    const simulation::AdvanceReport report = s.advance(time);
+    const simulation::AdvanceReport report = s.advance_to(time);
     r.steps_blocked += report.steps_blocked;
     r.steps_unsolved += report.steps_unsolved;
     const RigidTransform X_WA = thrown.loose ? s.objects()[1].X_WO : RigidTransform::Identity();

@@ -34,7 +34,7 @@ Bar unsolved_bar(const Measured& m) { return at_most("unsolved", m.steps_unsolve
 Bar rejected_bar(const Measured& m) { return at_most("rejected", m.steps_rejected, 0.0); }
 
 RigidTransform hand_above(const Vector3d& p_WE, double length) {
-  return make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p_WE + length * Vector3d::UnitZ());
+  return make_transform(p_WE + length * Vector3d::UnitZ(), Quaterniond(0.0, 1.0, 0.0, 0.0));
 }
 
 double minimum_jerk(double u) {
@@ -85,7 +85,7 @@ bool TrialRun::advance() {
   for (int i = 1; i <= steps; ++i) {
     time_ = i == steps ? interval_ * sample_ : begin_time + step * i;
     const double begin = processor_time();
-    const simulation::AdvanceReport report = simulation_.advance(time_);
+    const simulation::AdvanceReport report = simulation_.advance_to(time_);
     spent += processor_time() - begin;
     measured_.steps_blocked += report.steps_blocked;
     measured_.steps_unsolved += report.steps_unsolved;

@@ -157,7 +157,7 @@ WildResult run(const WildMotion& motion) {
   WildResult result;
   const double begin = processor_time();
   for (double t = 0.0; t < duration + 1e-9; t += 0.002) {
-    const simulation::AdvanceReport report = simulation.advance(t);
+    const simulation::AdvanceReport report = simulation.advance_to(t);
     result.steps += static_cast<int>(report.steps);
     result.steps_blocked += report.steps_blocked;
     result.time_lost += report.time_lost;

@@ -39,7 +39,7 @@ simulated_fastrak::PlayedMotion work_at(const Vector3d& object, double length) {
   const auto add = [&](double t, double x, double height, bool button) {
     motion::StylusSample sample;
     sample.t = t;
-    sample.X = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), object + Vector3d(x, 0.0, kReach + height));
+    sample.X = make_transform(object + Vector3d(x, 0.0, kReach + height), Quaterniond(0.0, 1.0, 0.0, 0.0));
     sample.button = button;
     samples.push_back(sample);
   };

@@ -124,8 +124,8 @@ std::vector<ReplayedPose> read_replayed(const std::string& path) {
     if (cells.size() < 9) throw std::runtime_error(path + ": a line with too few cells: " + line);
     const auto number = [&](std::size_t i) { return std::stod(cells[i]); };
     poses.push_back({number(0), cells[1],
-                     make_transform(Quaterniond(number(8), number(5), number(6), number(7)).normalized(),
-                                    {number(2), number(3), number(4)})});
+                     make_transform({number(2), number(3), number(4)},
+                                    Quaterniond(number(8), number(5), number(6), number(7)).normalized())});
   }
   return poses;
 }

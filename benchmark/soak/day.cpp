@@ -45,7 +45,7 @@ std::vector<RigidTransform> path_of(const std::string& file) {
     const Vector3d p = sample->X.translation() - first.translation();
     extent = std::max(extent, p.norm());
     const Matrix3d turn = sample->X.linear() * first.linear().transpose();
-    path.push_back(make_transform(Quaterniond(Matrix3d(turn * Quaterniond(0.0, 1.0, 0.0, 0.0).matrix())), p));
+    path.push_back(make_transform(p, Quaterniond(Matrix3d(turn * Quaterniond(0.0, 1.0, 0.0, 0.0).matrix()))));
   }
   for (RigidTransform& X : path) X.translation() *= kReach / extent;
   return path;
@@ -89,7 +89,7 @@ class Day {
       if (chance(kTick / kChangeEvery)) change();
       for (std::size_t hand = 0; hand < hands_.size(); ++hand) send(hand);
       if (t_ >= stands_until_) cycle();
-      if (tick % 10 == 0) runner_->show(uniform(0.0, 0.05), now(), [](const live::Moment&) { return false; });
+      if (tick % 10 == 0) runner_->show(uniform(0.0, 0.05), now(), [](const live::Progress&) { return false; });
       if (tick % 30 == 0) compare();
       note(tick, end);
     }

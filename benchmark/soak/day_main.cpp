@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, count] : r.faults) std::cout << name << ": " << count << '\n';
     std::cout << r.hours << " h, " << r.samples << " samples, an object held in " << r.held_ticks << " of " << r.ticks
               << " cycles, " << r.lives << " lives, " << r.changes << " changes, " << r.comparisons
-              << " comparisons with the replay, hash " << simulation::to_hex(r.hash) << '\n';
+              << " comparisons with the replay, hash " << math::to_hex(r.hash) << '\n';
     return judge(r.finite, "everything is finite") | judge(r.hash == r.replay_hash, "the hash is the replay's") |
            judge(r.mismatches == 0, "each change, made again, led to the recorded state") |
            judge(r.restarts <= r.lives, "time restarted at the first sample of a life alone") |

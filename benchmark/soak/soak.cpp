@@ -84,7 +84,7 @@ class Soak {
 
   void rest() {
     simulation_.release();
-    const double begin = simulation_.newest_sample();
+    const double begin = simulation_.newest_sample_time();
     advance(begin + kSettle);
     const std::vector<bodies::BodyState> at_first = simulation_.objects();
     for (double t = begin + kSettle; t < begin + kSettle + kRest; t += kRestInterval) advance(t);
@@ -95,7 +95,7 @@ class Soak {
   }
 
   void advance(double t) {
-    const simulation::AdvanceReport report = simulation_.advance(t);
+    const simulation::AdvanceReport report = simulation_.advance_to(t);
     result_.steps += report.steps;
     result_.simulated_time += report.simulated_time;
     result_.refused += report.steps_rejected;

@@ -78,7 +78,7 @@ TEST(RodCases, WhatTheSamplesLeaveIsTheDistanceFromTheExactMotionOnTheHandItself
   one.fork.damping_ratio = {0.1, 0.1, 0.1};
   for (auto* hand : {&one.hand, &one.fine_hand}) {
     for (motion::PoseSample& sample : *hand)
-      sample.X = make_transform(Quaterniond::Identity(), {0.0, 0.0, kTremor * std::sin(kRate * sample.t)});
+      sample.X = make_transform({0.0, 0.0, kTremor * std::sin(kRate * sample.t)}, Quaterniond::Identity());
   }
   using Complex = std::complex<double>;
   const double k = one.fork.stiffness.stretch, m = one.mass, omega = std::sqrt(k / m), sigma = 0.1 * omega;

@@ -23,7 +23,7 @@ constexpr double kInTheAir = 0.03;  // [m] initial height of the box above the b
 /// The scene of one box, with the box at the tip of a fork that points down.
 scene::Scene held_at(const Vector3d& handle, scene::Scene scene, ContactMode contact) {
   scene::Body& box = *std::find_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return b.movable; });
-  box.X_WO = make_transform(Quaterniond::Identity(), handle - Vector3d(0.0, 0.0, kFork));
+  box.X_WO = make_transform(handle - Vector3d(0.0, 0.0, kFork), Quaterniond::Identity());
   scene.contact = contact;
   return scene;
 }
@@ -87,7 +87,7 @@ class Run {
       while (const std::optional<double> stop = feed_.next_stop({now, now})) commit(*stop);
       if (!hand_input::usable(result)) continue;
       for (std::size_t i = 0; i < kAhead.size(); ++i) {
-        const double t = simulation_.newest_sample() + kAhead[i];
+        const double t = simulation_.newest_sample_time() + kAhead[i];
         ahead_[i].show(simulation_, feed_, t);
         const bodies::BodyState& box = ahead_[i].shown().objects()[0];
         if (box.held) shown_.emplace(t, Shown{i, box.X_WO});
@@ -112,9 +112,9 @@ class Run {
   void commit(double stop) {
     shown_.erase(shown_.begin(), shown_.lower_bound(simulation_.time()));
     const auto at_stop = shown_.lower_bound(stop);
-    if (shown_.begin() != at_stop) between_.follow(simulation_);
+    if (shown_.begin() != at_stop) between_.copy_state_from(simulation_);
     for (auto shown = shown_.begin(); shown != at_stop; ++shown) {
-      between_.advance(shown->first);
+      between_.advance_to(shown->first);
       compare(shown->second, between_);
     }
     feed_.advance_to(stop);

@@ -22,13 +22,13 @@ int main(int argc, char** argv) {
     // The hand, 50 times a second. The fork, 0.2 m long, points along z of the hand: here down, into the box.
     const Quaterniond down(0.0, 1.0, 0.0, 0.0);  // w, x, y, z
     for (int i = 0; i <= 150; ++i) {
-      simulation.push_stylus({0.02 * i, make_transform(down, {0.0, 0.0, height(0.02 * i)})});
+      simulation.push_stylus({0.02 * i, make_transform({0.0, 0.0, height(0.02 * i)}, down)});
     }
     simulation.push_button(0.2, true);  // grasps the object that the tip is in
 
     std::printf("time [s]  hand [m]  box [m]  stretch [mm]  weight [kg]\n");
     for (int i = 0; i <= 15; ++i) {
-      simulation.advance(0.2 * i);
+      simulation.advance_to(0.2 * i);
       const bodies::BodyState& box = simulation.objects().front();
       const tools::ToolState fork = simulation.tool();
       std::printf("%8.1f  %8.4f  %7.4f  %12.3f  %11.4f\n", simulation.time(), fork.X_WS.translation().z(),

@@ -48,9 +48,9 @@ Vector3d position_after(dynamics::IntegratorKind integrator, double step, const 
   const Quaterniond down(0.0, 1.0, 0.0, 0.0);  // w, x, y, z
   for (int i = 0; i <= 50; ++i) {
     const double t = 0.02 * i;
-    simulation.push_stylus({t, make_transform(down, {0.05 * (1.0 - std::cos(6.0 * t)), 0.0, 0.23})});
+    simulation.push_stylus({t, make_transform({0.05 * (1.0 - std::cos(6.0 * t)), 0.0, 0.23}, down)});
   }
-  simulation.advance(1.0);
+  simulation.advance_to(1.0);
   return simulation.objects().front().X_WO.translation();
 }
 

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     }
 
     std::printf("t,object,x,y,z,held\n");
-    const double end = simulation.newest_sample();
+    const double end = simulation.newest_sample_time();
     for (int i = 0; 0.1 * i <= end + 1e-9; ++i) {
       feed.advance_to(0.1 * i);
       for (const bodies::BodyState& object : simulation.objects()) {
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
         std::printf("%.1f,%s,%.6f,%.6f,%.6f,%d\n", 0.1 * i, object.name.c_str(), p.x(), p.y(), p.z(), object.held);
       }
     }
-    std::printf("# state %s\n", simulation::to_hex(simulation.state_hash()).c_str());
+    std::printf("# state %s\n", math::to_hex(simulation.state_hash()).c_str());
   } catch (const validation::InputError& error) {
     std::fprintf(stderr, "replay_a_motion: %s\n", error.what());
     return 2;

@@ -40,9 +40,9 @@ def draw_swing(scene, path):
     times = np.arange(0.0, END, 0.01)
     hand, box, bend = [], [], []
     for t in times:
-        simulation.advance(t)
+        simulation.advance_to(t)
         fork = simulation.tool()
-        hand.append(fork.stylus[0, 3])
+        hand.append(fork.stylus_pose[0, 3])
         box.append(simulation.poses[0, 0, 3])
         bend.append(np.hypot(*fork.bend))
     figure, (above, below) = plt.subplots(2, 1, sharex=True)
@@ -64,7 +64,7 @@ def work_precision(scene):
         for _ in range(3):
             simulation = simulation_of(scene, integrator, step)
             started = time.perf_counter()
-            simulation.advance(END)
+            simulation.advance_to(END)
             least = min(least, time.perf_counter() - started)
         return least, simulation.poses[0, :3, 3]
 

@@ -4,7 +4,7 @@
 
     simulation = sw.Simulation(sw.load_scene("box.urdf"), {"contact": "none"})
     simulation.push_motion(sw.read_motion("hand.tum"))
-    simulation.advance(1.0)
+    simulation.advance_to(1.0)
     print(simulation.poses)
 
 SI units, right-handed frames, z up. A pose is a 4 x 4 array that takes coordinates of its frame to world; a quaternion

@@ -1,12 +1,15 @@
 """Compiled part of spring_workbench."""
 
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, List, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 _Floats = npt.NDArray[np.float64]
 _Bools = npt.NDArray[np.bool_]
+_Tool = Literal["spring", "spring_fork", "spring_probe", "direct", "ray"]
+_Axes = Literal["world", "tip"]
+_DampingLaw = Literal["per_dof", "modal", "coefficients"]
 
 class InputError(ValueError):
     """Invalid input. The message names the field, what is allowed and what was given; the state is unchanged."""
@@ -33,7 +36,8 @@ class SettingDescription:
         """What the setting does."""
 
 class SimulationSettings:
-    """Settings of a simulation; setting_descriptions() explains them."""
+    """Settings of a simulation by key, checked when they are set; setting_descriptions() explains them. They cannot be
+    read back: keep the dictionary."""
     def __init__(self, values: Mapping[str, Any] = ...) -> None:
         """values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown
         key, a wrong type or a value that is not allowed."""
@@ -50,9 +54,9 @@ class Scene:
         """Path of the URDF."""
     @property
     def gravity(self) -> float:
-        """Gravity along -z of the world [m/s2]."""
+        """Gravity along -z of the world [m/s²]."""
     @property
-    def contact(self) -> str:
+    def contact(self) -> Literal["none", "stop", "dynamic"]:
         """Contact mode: none, stop or dynamic."""
     @property
     def tool(self) -> str:
@@ -84,7 +88,7 @@ class ToolState:
     def present(self) -> bool:
         """True once a sample of this hand has arrived."""
     @property
-    def tool(self) -> str:
+    def tool(self) -> _Tool:
         """Name of the tool: spring_fork, spring, spring_probe, direct or ray."""
     @property
     def held_object(self) -> str:
@@ -93,7 +97,7 @@ class ToolState:
     def touched(self) -> str:
         """Name of the body that the probe touches (`workbench`: the bench); empty if it touches none."""
     @property
-    def shape(self) -> str:
+    def shape(self) -> Literal["constant", "linear", "bushing"]:
         """Shape model of the fork: constant, linear or bushing."""
     @property
     def integrator(self) -> str:
@@ -115,11 +119,12 @@ class ToolState:
         """Damping coefficient of stretch, bend [N s/m] and torsion [N m s/rad], in force with the law coefficients;
         shape (3,)."""
     @property
-    def damping_law(self) -> str:
+    def damping_law(self) -> _DampingLaw:
         """Damping law: per_dof, modal or coefficients."""
     @property
     def strain(self) -> _Floats:
-        """Strain coordinates of the shape model; shape (n,), n at most 6."""
+        """Strain coordinates of the shape model: bend and torsion [1/m], stretch [-]; for bushing displacements [m] and
+        a rotation vector [rad]. Zero while nothing is held; shape (n,), n at most 6."""
     @property
     def stretch(self) -> float:
         """Extension along the fork [m]."""
@@ -130,17 +135,18 @@ class ToolState:
     def torsion(self) -> float:
         """Twist angle [rad]."""
     @property
-    def stylus(self) -> _Floats:
-        """Pose of the stylus; shape (4, 4)."""
+    def stylus_pose(self) -> _Floats:
+        """Pose of the stylus in world; shape (4, 4)."""
     @property
-    def handle(self) -> _Floats:
-        """Pose of the handle; shape (4, 4)."""
+    def handle_pose(self) -> _Floats:
+        """Pose of the handle in world; shape (4, 4)."""
     @property
-    def proxy_handle(self) -> _Floats:
-        """Pose from which the fork acts; it lags behind `handle` if the object cannot follow; shape (4, 4)."""
+    def proxy_handle_pose(self) -> _Floats:
+        """Pose of the proxy handle, from which the fork acts, in world; it lags behind `handle_pose` if the object
+        cannot follow; shape (4, 4)."""
     @property
-    def tip(self) -> _Floats:
-        """Pose of the tip; shape (4, 4)."""
+    def tip_pose(self) -> _Floats:
+        """Pose of the tip in world; shape (4, 4)."""
     @property
     def tip_wrench(self) -> _Floats:
         """Force [N] and moment [N m] on the object at the tip, world axes; shape (6,)."""
@@ -155,23 +161,23 @@ class ToolState:
         """Kinetic energy of the held object [J]."""
     @property
     def error_bound(self) -> Optional[float]:
-        """Bound on the error of integration in position, since the grasp or the last step without a bound [m],
-        rounding excluded; None if the setting `error_bound` is off or, e.g., in contact."""
+        """Estimate from above, not rigorous, of the error of integration in position since the grasp or the last step
+        without one [m]; None if the setting `error_bound` is off or, e.g., in contact."""
     @property
     def weight(self) -> float:
-        """Upward force on the object divided by g [vkg]."""
+        """Reading as a scale: upward force on the object divided by g, a mass [vkg: virtual kg]."""
     @property
     def torque(self) -> float:
-        """Moment about the fork's axis at the tip [N m]."""
+        """Reading as a torque wrench: moment about the tool's axis at the tip [N m]."""
     @property
     def stretching_force(self) -> float:
-        """Force along the tool's axis at the handle, > 0 in tension [N] (the paper, section 4)."""
+        """Axial force at the handle, > 0 in tension [N] (the paper, section 4)."""
     @property
     def bending_force(self) -> float:
-        """Force perpendicular to that axis [N]."""
+        """Transverse force at the handle [N]."""
     @property
     def force_angle(self) -> float:
-        """Angle between that axis and the force on the tool, 0 to pi [rad]."""
+        """Angle between the tool's axis and the force on it, 0 to pi [rad]."""
     @property
     def load(self) -> float:
         """Load as a fraction of the scene's range of loads, 0 to 1."""
@@ -183,7 +189,7 @@ class ToolState:
         """Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading."""
     @property
     def material_stiffness_uncertainty(self) -> float:
-        """One standard deviation of that reading [N/m]."""
+        """One standard deviation of `material_stiffness` [N/m]."""
 
 class ContactState:
     """Contact point between an object and another body, in world axes."""
@@ -212,17 +218,20 @@ class ContactState:
     def slip_speed(self) -> float:
         """Speed of the object along the surface [m/s]."""
     @property
-    def phase(self) -> str:
+    def phase(self) -> Literal["started", "persisting", "ended"]:
         """Phase of the contact: started, persisting or ended."""
 
 class AdvanceReport:
-    """Report of one call of `advance`."""
+    """Report of one call of `advance_to`. Error bounds are empirical estimates from above, not rigorous (doc/model.md).
+    An integration is one solution of the equation of motion over a step or a part of one: in contact there are several
+    in a step."""
     @property
     def steps(self) -> int:
         """Number of steps taken."""
     @property
     def substeps(self) -> int:
-        """Number of steps discarded and repeated as shorter ones (equation not solved, or error too large)."""
+        """Number of steps that were discarded and repeated as shorter ones, since the equation was not solved or the
+        error too large (other engines call a part of a step that is taken a substep)."""
     @property
     def simulated_time(self) -> float:
         """Time simulated by this call [s]."""
@@ -234,49 +243,52 @@ class AdvanceReport:
         """Largest estimate of a step's local error in the angle [rad]."""
     @property
     def local_error_bound(self) -> Optional[float]:
-        """Largest bound on a step's local error in position [m]; None if no step has one."""
+        """Largest bound of a step's local error in position [m]; None if no step has one."""
     @property
     def error_bound(self) -> Optional[float]:
-        """Largest bound on the error of integration in position, since the grasp or the last step without a bound [m];
+        """Largest bound of an object's error in position since its grasp, or since its last step without a bound [m];
         None if no step has one, e.g. without the setting `error_bound`."""
     @property
     def angle_error_bound(self) -> Optional[float]:
-        """The same bound for the orientation [rad]; see `error_bound`."""
+        """Largest bound of an object's error in angle since its grasp, or since its last step without a bound [rad];
+        None if no step has one."""
     @property
-    def steps_unbounded(self) -> int:
-        """Number of integrations (in contact several a step) without an error bound: all, unless the setting
-        `error_bound` is on."""
+    def integrations_without_bound(self) -> int:
+        """Number of integrations without an error bound: all, unless the setting `error_bound` is on."""
     @property
     def energy_balance(self) -> float:
-        """Energy added beyond the work of hand, gravity, contact and damping [J]; if stiffest_omega_dt is below 1."""
+        """Energy of the held object and the fork beyond the work of hand, gravity, damping and contact [J]; meaningful
+        if stiffest_omega_dt is below about 1."""
     @property
     def energy_error(self) -> float:
         """Sum of the steps' estimated errors in energy [J]."""
     @property
     def stiffest_omega_dt(self) -> float:
-        """Angular frequency of the stiffest mode times the step."""
+        """Largest product of the stiffest mode's angular frequency and the step."""
     @property
     def collision_queries(self) -> int:
         """Number of queries to the collision library."""
     @property
     def stops(self) -> int:
-        """Number of steps that met the end of the fork's range (fully compressed or wound up)."""
+        """Number of steps in which the fork reached the end of its range (fully compressed or wound up); unrelated to
+        the contact mode stop."""
     @property
     def steps_fallback(self) -> int:
         """Number of integrations by an L-stable rule, since the integrator's own equation was not solved."""
     @property
     def steps_blocked(self) -> int:
-        """Number of steps in which contact did not allow an object to move."""
+        """Number of steps in which no admissible motion of an object was found, so that it stayed in place."""
     @property
     def steps_unsolved(self) -> int:
-        """Number of steps or parts of one, near other movable objects, accepted although a contact missed its law by
-        1 um."""
+        """Number of steps, or parts of one, that were accepted although a contact among movable objects was left with a
+        residual above 1 µm, was deeper than 0.1 mm, or was lost."""
     @property
     def time_lost(self) -> float:
-        """Time during which a body did not follow its equation of motion [s]."""
+        """Time during which an object did not follow its equation of motion [s]."""
     @property
     def steps_rejected(self) -> int:
-        """Number of steps rejected because their result was not finite or bounded."""
+        """Number of steps without a usable result (non-finite or out of range): the fork is rigid for that step or, in
+        contact, the object stays."""
     @property
     def active(self) -> List[str]:
         """Names of the subsystems that ran."""
@@ -300,7 +312,7 @@ class ChangeReport:
         """What was changed, in one line."""
 
 class SimulationState:
-    """Saved state of a whole simulation. It can be compared and pickled."""
+    """Saved state of a whole simulation, from Simulation.save(). It can be compared and pickled."""
     @property
     def hash(self) -> str:
         """Hash of the state, 16 hexadecimal digits: equal states have equal hashes on every machine."""
@@ -310,8 +322,16 @@ class SimulationState:
 class Simulation:
     """Simulation of a scene with hands and their tools.
 
-    It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus,
-    at most the setting `styluses` - 1; another raises InputError, a negative one TypeError."""
+        simulation = Simulation(load_scene("box.urdf"))
+        for t in (0.0, 0.5, 1.0):  # the hand moves up; the fork points down, into the box
+            simulation.push_stylus(t, pose([0.0, 0.0, 0.24 + 0.1 * t], [1.0, 0.0, 0.0, 0.0]))
+        simulation.push_button(0.0, True)
+        simulation.advance_to(1.0)
+        print(simulation.poses[0][:3, 3])
+
+    It reads no clock and starts no thread; the same calls give bit-identical results. Not thread-safe; a copy is a new
+    Simulation that restores a saved state. `hand` is 0 for the first stylus (nodes count styluses from 1), at most the
+    setting `styluses` - 1; another raises InputError, a negative one TypeError. Arrays are copies."""
     def __init__(self, scene: Scene, settings: Union[SimulationSettings, Dict[str, Any]] = ...) -> None:
         """Starts a simulation of `scene`. settings: SimulationSettings or the dictionary for it. Raises InputError if a
         setting is not allowed or does not match the scene."""
@@ -327,7 +347,7 @@ class Simulation:
     def push_clutch(self, t: float, on: bool, hand: int = 0) -> None:
         """Switches the clutch at time t [s]: while it is on, the tool and what it holds stay in place and the hand
         moves alone; once it is off, they follow its further motion. Raises InputError if t is not finite."""
-    def push_external_wrench(self, t: float, wrench: npt.ArrayLike, axes: str = "world", hand: int = 0) -> None:
+    def push_external_wrench(self, t: float, wrench: npt.ArrayLike, axes: _Axes = "world", hand: int = 0) -> None:
         """Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
 
         axes: world, or tip (the axes turn with it). It is in real units: multiplied by the scene's force_scale, it acts
@@ -337,7 +357,7 @@ class Simulation:
 
         As push_stylus, it ignores each pose whose time is not later than that of the newest one. Raises InputError if a
         pose is invalid."""
-    def advance(self, t_end: float) -> AdvanceReport:
+    def advance_to(self, t_end: float) -> AdvanceReport:
         """Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
         If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act.
@@ -346,8 +366,8 @@ class Simulation:
     def time(self) -> float:
         """Simulated time [s]."""
     @property
-    def newest_sample(self) -> float:
-        """Time of the newest sample of any hand [s]."""
+    def newest_sample_time(self) -> float:
+        """Time of the newest sample of any hand, or `time` if there is none [s]."""
     @property
     def names(self) -> List[str]:
         """Names of the movable objects, in the order of all arrays."""
@@ -368,7 +388,7 @@ class Simulation:
         """True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,)."""
     @property
     def contacts(self) -> List[ContactState]:
-        """Current contacts, and those that ended in the last call of `advance`: a list of ContactState."""
+        """Current contacts, and those that ended in the last call of `advance_to`: a list of ContactState."""
     def tool(self, hand: int = 0) -> ToolState:
         """Returns the state of the tool in a hand."""
     @property
@@ -387,7 +407,7 @@ class Simulation:
     @property
     def state_hash(self) -> str:
         """Hash of the whole state: 16 hexadecimal digits."""
-    def select_tool(self, tool: str, hand: Optional[int] = 0) -> ChangeReport:
+    def select_tool(self, tool: _Tool, hand: Optional[int] = None) -> ChangeReport:
         """Changes the tool in a hand, or with None in each, to spring, spring_fork, spring_probe, direct or ray. What
         it holds stays in hand, except with spring_probe."""
     def change(
@@ -400,7 +420,7 @@ class Simulation:
         step: Optional[float] = None,
         tolerance: Optional[float] = None,
         damping_coefficient: Optional[Sequence[Optional[float]]] = None,
-        damping_law: Optional[str] = None,
+        damping_law: Optional[_DampingLaw] = None,
         damping: Optional[Sequence[Optional[float]]] = None,
         hand: Optional[int] = None,
     ) -> ChangeReport:
@@ -424,7 +444,7 @@ class Simulation:
         Raises InputError, and changes nothing, if a name is not that of a movable object or a pose is invalid."""
     def edit(
         self,
-        action: str,
+        action: Literal["add", "move", "remove", "mass", "friction"],
         name: str,
         urdf: str = ...,
         pose: Optional[npt.ArrayLike] = None,
@@ -446,8 +466,9 @@ def load_scene(path: str, roots: Sequence[str] = ...) -> Scene:
     roots: folders; if any are given, all files that the scene names must lie below one of them or in a ROS package.
     Raises InputError if a file cannot be read or is not valid."""
 def read_motion(path: str) -> Motion:
-    """Reads a recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml). Raises
-    InputError."""
+    """Reads a recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml).
+
+    Raises InputError, with file and line, if it cannot be read or is not valid."""
 def pose(position: Sequence[float], quaternion: Sequence[float] = ...) -> _Floats:
     """Returns a pose as an array of shape (4, 4).
 

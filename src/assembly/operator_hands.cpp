@@ -78,7 +78,7 @@ motion::StylusSample OperatorHands::sample(std::size_t number, double t) {
   sample.hand = number;
   const Vector3d p = hand.X_WH.translation() + settings_.position_noise * random_.next_vector();
   sample.X =
-      make_transform(Quaterniond(hand.X_WH.linear() * math::exp_so3(settings_.angle_noise * random_.next_vector())), p);
+      make_transform(p, Quaterniond(hand.X_WH.linear() * math::exp_so3(settings_.angle_noise * random_.next_vector())));
   return sample;
 }
 

@@ -196,8 +196,8 @@ void SimulatedOperator::move_tip_to(const Vector3d& p_WE, Phase then) {
 void SimulatedOperator::move_object_to(const RigidTransform& X_WO, Phase then) {
   const auto place = [&](std::size_t hand) {
     const RigidTransform X_WH = X_WO * object().X_WO.inverse() * percepts_.front().X_WH[hand];
-    return make_transform(Quaterniond(X_WH.linear()),
-                          X_WH.translation());  // composed motions accumulate rounding errors
+    return make_transform(X_WH.translation(),
+                          Quaterniond(X_WH.linear()));  // composed motions accumulate rounding errors
   };
   reach(engaged_, place, then);
 }

@@ -39,7 +39,7 @@ void Changes::note(std::size_t object) {
   end.older = object;
 }
 
-std::vector<std::size_t> Changes::since(const Moment& then) const {
+std::vector<std::size_t> Changes::since(const Revision& then) const {
   const std::uint64_t count = then.of == self_ ? then.count : 0;
   std::vector<std::size_t> objects;
   for (std::size_t i = links_.back().older; i + 1 < links_.size() && links_[i].at > count; i = links_[i].older)

@@ -100,7 +100,7 @@ RigidTransform read_pose(const YAML::Node& node, const std::string& where, const
   const std::vector<double> v = read_numbers(node, where, key, 7);
   const Quaterniond q(v[6], v[3], v[4], v[5]);
   if (!(q.norm() > 1e-6)) refuse_node(node, where, key, "x y z qx qy qz qw with a nonzero quaternion");
-  return make_transform(q, Vector3d(v[0], v[1], v[2]));
+  return make_transform(Vector3d(v[0], v[1], v[2]), q);
 }
 
 YAML::Node number_node(double number) {

@@ -12,8 +12,8 @@
 #include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
-ContactStepper::ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int bisection_levels)
-    : scene_(scene), collision_(collision), levels_(bisection_levels) {
+ContactStepper::ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int impact_bisections)
+    : scene_(scene), collision_(collision), levels_(impact_bisections) {
   for (const scene::Body& body : scene.bodies) radius_.push_back(geometry::bounding_radius(body.collision));
 }
 

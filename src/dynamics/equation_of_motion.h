@@ -55,7 +55,7 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
     r.moment_O = r.moment_O - math::transposed(r.R_HO, math::transposed(h.R_WB, math::three(load_W_.moment)));
   }
   if (coupled()) {
-    const Pull<S> pull = couplings_.pull(handle.t, handle.seen, {r.R_HO, r.p_HO, r.v_rel, w_rel});
+    const Pull<S> pull = couplings_.pull(handle.t, handle.relative_motions, {r.R_HO, r.p_HO, r.v_rel, w_rel});
     r.force = r.force - pull.force;
     r.moment_O = r.moment_O - math::transposed(r.R_HO, pull.moment);
   }

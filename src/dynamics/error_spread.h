@@ -23,7 +23,7 @@ class ErrorSpread {
 
   /// Propagates the run's error over the last step, and adds that step's own. The estimate goes along the equation of
   /// motion, by its linear part and one iteration; the spread grows by the uncertainty of the step's estimate.
-  SPRING_WORKBENCH_INLINE void follow(const Equation& equation, const Steps& steps, RunError& run) {
+  SPRING_WORKBENCH_INLINE void propagate(const Equation& equation, const Steps& steps, RunError& run) {
     const Propagator& propagator = steps.propagator();
     const typename Steps::Done& done = steps.done();
     if (revision_ != propagator.revision()) set(propagator);
@@ -51,7 +51,7 @@ class ErrorSpread {
 
  private:
   using Square = typename Propagator::Square;
-  using Moments = Eigen::Matrix<double, 2 * n, 2 * n>;
+  using StateMatrix = Eigen::Matrix<double, 2 * n, 2 * n>;
   static constexpr std::size_t at(int i) { return Propagator::at(i); }
 
   /// Derives from the linear part and the step.
@@ -88,18 +88,18 @@ class ErrorSpread {
   /// Carries the spread over the step and adds a ball of the amplitude `run.uncertainty`: the smallest ellipsoid, by
   /// its trace, that contains their sum.
   SPRING_WORKBENCH_INLINE void carry(RunError& run) {
-    Moments moments = transition_ * Moments(run.spread) * transition_.transpose();
-    const double size = std::sqrt(std::max(0.0, mass_.dot(moments.diagonal().template head<n>())) /
+    StateMatrix spread = transition_ * StateMatrix(run.spread) * transition_.transpose();
+    const double size = std::sqrt(std::max(0.0, mass_.dot(spread.diagonal().template head<n>())) /
                                   mass_.dot(ball_.diagonal().template head<n>()));
-    if (size > 0.0) moments *= 1.0 + run.uncertainty / size;
-    run.spread = moments + run.uncertainty * (run.uncertainty + size) * ball_;
+    if (size > 0.0) spread *= 1.0 + run.uncertainty / size;
+    run.spread = spread + run.uncertainty * (run.uncertainty + size) * ball_;
   }
 
   typename Propagator::Strain amplitude_rates_, mass_;
   Square to_undamped_;
-  Moments ball_;        ///< of deviations of amplitude 1
-  Moments transition_;  ///< over the step
-  long revision_ = 0;   ///< of the propagator that all this is of
+  StateMatrix ball_;        ///< of deviations of amplitude 1
+  StateMatrix transition_;  ///< over the step
+  long revision_ = 0;       ///< of the propagator that all this is of
 };
 
 }  // namespace spring_workbench::dynamics

@@ -6,7 +6,6 @@
 #include "spring_workbench/exponential/collocation_step.h"
 #include "spring_workbench/exponential/refactorisation.h"
 #include "spring_workbench/math/by_size.h"
-#include "step_work.h"
 
 namespace spring_workbench::dynamics {
 
@@ -17,8 +16,8 @@ class Exponential::Core {
                             StrainState& state) = 0;
   /// Returns nullptr if the linear part is that of other equations.
   virtual const Response* response(const HeldBody& body, double h) = 0;
-  virtual void carry(StrainState& deviation) const = 0;
-  virtual void follow(const HeldBody& body, RunError& error) = 0;
+  virtual void propagate_deviation(StrainState& deviation) const = 0;
+  virtual void propagate_run_error(const HeldBody& body, RunError& error) = 0;
   virtual StepWork work(const HeldBody& body) const = 0;
   virtual void exchange(math::StateArchive& state) = 0;
 };
@@ -53,14 +52,14 @@ class Exponential::CoreOf final : public Core {
     return &response_;
   }
 
-  void carry(StrainState& deviation) const override {
+  void propagate_deviation(StrainState& deviation) const override {
     Modes y;
     y << deviation.q, deviation.q_dot;
     y = steps_.propagator().carried(y);
     deviation = {y.template head<n>(), y.template tail<n>()};
   }
 
-  void follow(const HeldBody& body, RunError& run) override { follow_error(body, run); }
+  void propagate_run_error(const HeldBody& body, RunError& run) override { follow_error(body, run); }
   StepWork work(const HeldBody& body) const override { return work_of(body, steps_); }
 
   void exchange(math::StateArchive& state) override {
@@ -92,7 +91,7 @@ class Exponential::CoreOf final : public Core {
     return {result.error.template head<n>(), modes().fastest * h, result.error.template tail<n>(), result.solved};
   }
   SPRING_WORKBENCH_WIDE void follow_error(const HeldBody& body, RunError& run) {
-    spread_.follow(Equation(body), steps_, run);
+    spread_.propagate(Equation(body), steps_, run);
   }
 
   long version_ = -1;  ///< of the equations that the linear part belongs to
@@ -120,13 +119,13 @@ StepEstimate Exponential::step(const HeldBody& body, const motion::FrameMotion& 
   return core(body.size()).step(body, handle, t, h, state);
 }
 
-void Exponential::carry(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&,
-                        const StrainState&, StrainState& deviation) {
-  if (deviation.q.size() > 0) core_->carry(deviation);  // of the last step
+void Exponential::propagate_deviation(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&,
+                                      const StrainState&, StrainState& deviation) {
+  if (deviation.q.size() > 0) core_->propagate_deviation(deviation);  // of the last step
 }
 
-void Exponential::follow(const HeldBody& body, RunError& error) {
-  if (body.size() > 0) core_->follow(body, error);  // of the last step
+void Exponential::propagate_run_error(const HeldBody& body, RunError& error) {
+  if (body.size() > 0) core_->propagate_run_error(body, error);  // of the last step
 }
 
 std::optional<StepWork> Exponential::work(const HeldBody& body) const {

@@ -27,14 +27,14 @@ class Exponential final : public Integrator {
   Energy energy() const override { return Energy::conserved; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
-  void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const StrainState& begin,
-             const StrainState& end, StrainState& deviation) override;
-  bool follows_errors() const override { return true; }
-  void follow(const HeldBody& body, RunError& error) override;
+  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                           const StrainState& begin, const StrainState& end, StrainState& deviation) override;
+  bool tracks_run_error() const override { return true; }
+  void propagate_run_error(const HeldBody& body, RunError& error) override;
   std::optional<StepWork> work(const HeldBody& body) const override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
   void exchange(math::StateArchive& state) override;
-  bool restores_all() const override { return true; }
+  bool restores_completely() const override { return true; }
 
  private:
   class Core;  ///< for one number of coordinates

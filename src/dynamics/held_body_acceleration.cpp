@@ -1,17 +1,49 @@
-// The acceleration of the held body at one moment or at several, for each number of coordinates.
+// The handle's motion and the held body's acceleration, at one moment or at several, for each number of coordinates.
 #include "equation_of_motion.h"
 #include "spring_workbench/math/by_size.h"
 
 namespace spring_workbench::dynamics {
 
+HandleForcing HeldBody::forcing(const motion::FrameMotion& handle, double t) const {
+  const motion::OwnAxesMotion m = handle.in_own_axes(t);
+  HandleForcing f;
+  f.t = t;
+  f.X_WH = m.X;
+  f.v_WH_W = m.v_W;
+  f.w_WH_H = m.w_B;
+  f.alpha_WH_H = m.alpha_B;
+  f.proper_acceleration_H.noalias() = m.X.linear().transpose() * (m.a_W + gravity_ * Vector3d::UnitZ());
+  couplings_.find_relative_motions(handle, t, f.relative_motions);
+  return f;
+}
+
+HandleForcings HeldBody::forcing(const motion::FrameMotion& handle, const math::Pack& t) const {
+  HandleForcings f;
+  f.t = t;
+  f.of_H = handle.forcing(t, gravity_);
+  couplings_.find_relative_motions(handle, t, f.relative_motions);
+  return f;
+}
+
+HandleForcing HandleForcings::at(int i) const {
+  HandleForcing f;
+  f.t = math::lane(t, i);
+  f.X_WH.linear() = math::matrix(of_H.R_WB, i);
+  f.w_WH_H = math::vector(of_H.w_B, i);
+  f.alpha_WH_H = math::vector(of_H.alpha_B, i);
+  f.proper_acceleration_H = math::vector(of_H.a_B, i);
+  f.v_WH_W = f.X_WH.linear() * math::vector(of_H.v_B, i);
+  f.relative_motions = Couplings::lane(relative_motions, i);
+  return f;
+}
+
 template <int n>
 Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const Eigen::Matrix<double, n, 1>& q,
                                                    const Eigen::Matrix<double, n, 1>& q_dot) const {
-  const ForcingOf<double> forcing{
-      h.t,
-      {math::three_by_three(h.X_WH.linear()), math::none<double>(), math::three(h.angular_velocity),
-       math::three(h.angular_acceleration), math::three(h.acceleration_less_gravity)},
-      h.seen};
+  const ForcingOf<double> forcing{h.t,
+                                  {math::three_by_three(h.X_WH.linear()), math::none<double>(), math::three(h.w_WH_H),
+                                   math::three(h.alpha_WH_H), math::three(h.proper_acceleration_H)},
+                                  h.relative_motions};
   Eigen::Matrix<double, n, 1> q_ddot;
   accelerate<n>(forcing, q.data(), q_dot.data(), q_ddot.data());
   return q_ddot;

@@ -51,7 +51,7 @@ EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack
     const Wrench& pull = others.pull_W;
     all.energy[k] += others.springs.energy;
     all.power[k] += others.power - pull.force.dot(at.v_WH_W) -
-                    (pull.moment + p_HO_W.cross(pull.force)).dot(at.X_WH.linear() * at.angular_velocity);
+                    (pull.moment + p_HO_W.cross(pull.force)).dot(at.X_WH.linear() * at.w_WH_H);
   }
   return all;
 }
@@ -64,10 +64,10 @@ Couplings::Reading HeldBody::read_couplings(const HandleForcing& h, const Strain
   rod::add_tip_motion(tip, coordinates_.count(), full.q_dot.data(), w, v);
   const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_);
   const Matrix3d& R_WH = h.X_WH.linear();
-  return couplings_.read(h.t, h.seen,
+  return couplings_.read(h.t, h.relative_motions,
                          {tip.R_HE * math::three_by_three(R_EO_), tip.p_HE + r_EO, v + math::cross(w, r_EO), w},
                          {math::three_by_three(R_WH), math::three(h.X_WH.translation()),
-                          math::three(Vector3d(R_WH.transpose() * h.v_WH_W)), math::three(h.angular_velocity)});
+                          math::three(Vector3d(R_WH.transpose() * h.v_WH_W)), math::three(h.w_WH_H)});
 }
 
 double HeldBody::elastic_energy(double t, const StrainState& state) const {

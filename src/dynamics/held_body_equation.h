@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "modal_decomposition.h"
+#include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/exponential/collocation.h"
 #include "spring_workbench/math/spatial.h"
 
 namespace spring_workbench::dynamics {
@@ -51,7 +53,7 @@ class HeldBodyEquation {
   /// differences of positions as far from the origin as their frames, and the step responds to a part of them.
   double squared_rounding(const HandleForcings& forcing, const ModalDecomposition& modes, double h, const Strain& q,
                           const Strain& q_dot) const {
-    const double felt = forcing.seen.distance * std::min(1.0, modes.fastest * h * modes.fastest * h);
+    const double felt = forcing.relative_motions.distance * std::min(1.0, modes.fastest * h * modes.fastest * h);
     return modes.mass.dot(rod::StrainVector(q.cwiseAbs2() + h * h * q_dot.cwiseAbs2())) +
            body_.body().mass * felt * felt;
   }
@@ -67,5 +69,19 @@ class HeldBodyEquation {
  private:
   const HeldBody& body_;
 };
+
+/// The work over the last of these `steps` of exponential collocation, by Radau's quadrature at its nodes.
+template <typename Steps>
+StepWork work_of(const HeldBody& body, const Steps& steps) {
+  using exponential::Collocation;
+  typename Steps::NodeStrains q, q_dot;
+  steps.path(q, q_dot);
+  const EnergyBalance at_nodes = body.energy_balance(steps.done().forcing, q.data(), q_dot.data());
+  double power = 0.0;
+  for (std::size_t i = 0; i < Collocation::count; ++i) {
+    power += Collocation::quadrature[i] * at_nodes.power[static_cast<int>(i)];
+  }
+  return {at_nodes.energy[Collocation::count - 1], steps.propagator().h() * power};
+}
 
 }  // namespace spring_workbench::dynamics

@@ -105,7 +105,7 @@ motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& 
   if (q_ddot != nullptr) rod::add_tip_motion(tip, coordinates_.count(), acceleration, alpha, a);
   const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_), p_HO = tip.p_HE + r_EO,
                             v_rel = v + math::cross(w, r_EO);
-  const math::Three<double> w_H = math::three(h.angular_velocity), alpha_H = math::three(h.angular_acceleration);
+  const math::Three<double> w_H = math::three(h.w_WH_H), alpha_H = math::three(h.alpha_WH_H);
   const math::ThreeByThree<double> R_WH = math::three_by_three(h.X_WH.linear());
   motion::MotionState s;
   s.X.linear() = math::matrix(R_WH * (tip.R_HE * math::three_by_three(R_EO_)), 0);
@@ -114,7 +114,7 @@ motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& 
   s.velocity.angular = math::vector(R_WH * (w_H + w));
   if (q_ddot != nullptr) {
     const math::Three<double> of_O = a + math::cross(alpha, r_EO) + math::cross(w, math::cross(w, r_EO));
-    const math::Three<double> a_H = math::three(h.acceleration_less_gravity) + of_O + math::cross(alpha_H, p_HO) +
+    const math::Three<double> a_H = math::three(h.proper_acceleration_H) + of_O + math::cross(alpha_H, p_HO) +
                                     math::cross(w_H, math::cross(w_H, p_HO) + 2.0 * v_rel);
     s.acceleration.linear = math::vector(R_WH * a_H) - gravity_ * Vector3d::UnitZ();
     s.acceleration.angular = math::vector(R_WH * (alpha_H + math::cross(w_H, w) + alpha));

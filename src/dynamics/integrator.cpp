@@ -50,7 +50,7 @@ std::unique_ptr<Integrator> make_integrator(IntegratorKind kind) {
 
 void swap_alike(std::unique_ptr<Integrator>& a, std::unique_ptr<Integrator>& b) {
   const Integrator &of_a = *a, &of_b = *b;
-  if (typeid(of_a) == typeid(of_b) && of_a.restores_all()) a.swap(b);
+  if (typeid(of_a) == typeid(of_b) && of_a.restores_completely()) a.swap(b);
 }
 
 IntegratorKind register_integrator(const std::string& name, MakeIntegrator make) {
@@ -63,8 +63,8 @@ IntegratorKind register_integrator(const std::string& name, MakeIntegrator make)
   return static_cast<IntegratorKind>(names.size() - 1);
 }
 
-void Integrator::carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
-                       const StrainState& begin, const StrainState& end, StrainState& deviation) {
+void Integrator::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                                     const StrainState& begin, const StrainState& end, StrainState& deviation) {
   StrainState other{begin.q + deviation.q, begin.q_dot + deviation.q_dot};
   step(body, handle, t, h, other);
   deviation = {other.q - end.q, other.q_dot - end.q_dot};

@@ -71,7 +71,7 @@ ForkCurve make_fork_curve(const std::string& name, const rod::ShapeModel& shape,
   if (name == "rod") return rod_curve(shape, q, X_WH);
   if (name == "bezier") {
     const RigidTransform X_WE = X_WH * shape.section(q, shape.length());
-    return bezier_curve(X_WH, X_WE, shape.length() + shape.extension(q), shape.twist(q));
+    return bezier_curve(X_WH, X_WE, shape.length() + shape.extension(q), shape.torsion_angle(q));
   }
   validation::refuse("fork", "curve", name, "one of " + validation::join(fork_curve_names()));
 }

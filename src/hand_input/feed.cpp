@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-using Kind = Accepted::Kind;
+using Kind = AcceptedInput::Kind;
 using motion::ButtonEdge;
 constexpr std::pair<ButtonEdge, Kind> of_buttons[] = {{ButtonEdge::grasp, Kind::button_down},
                                                       {ButtonEdge::release, Kind::button_up},
@@ -26,13 +26,13 @@ constexpr std::pair<ButtonEdge, Kind> of_buttons[] = {{ButtonEdge::grasp, Kind::
 
 }  // namespace
 
-Kind Accepted::kind_of(ButtonEdge press) {
-  return std::find_if(std::begin(of_buttons), std::end(of_buttons), [&](auto& b) { return b.first == press; })->second;
+Kind AcceptedInput::kind_of(ButtonEdge edge) {
+  return std::find_if(std::begin(of_buttons), std::end(of_buttons), [&](auto& b) { return b.first == edge; })->second;
 }
 
-std::optional<ButtonEdge> Accepted::press_of(Kind kind) {
-  for (const auto& [press, of_press] : of_buttons) {
-    if (of_press == kind) return press;
+std::optional<ButtonEdge> AcceptedInput::edge_of(Kind kind) {
+  for (const auto& [edge, of_edge] : of_buttons) {
+    if (of_edge == kind) return edge;
   }
   return std::nullopt;
 }
@@ -76,7 +76,7 @@ std::size_t Feed::tracker_moves(std::size_t hand) const { return hands_.at(hand)
 GateResult Feed::push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
                              std::size_t hand) {
   const GateResult result = hands_.at(hand).gate.offer(sample);
-  if (usable(result)) follow({sample.t, make_transform(sample.q, sample.p)}, result, &X_WP, arrival, hand);
+  if (usable(result)) follow({sample.t, make_transform(sample.p, sample.q)}, result, &X_WP, arrival, hand);
   return result;
 }
 
@@ -107,7 +107,7 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
     if (!simulation_.push_stylus(followed, hand)) continue;
     input.has_sample = true;
     if (input.ahead) input.ahead->push(followed);
-    note(Accepted::Kind::pose, hand, followed.t, followed.X);
+    note(AcceptedInput::Kind::pose, hand, followed.t, followed.X);
   }
   has_sample_ |= input.has_sample;
   input.playout.sample(sample.t, arrival);  // even if it is late: later samples may still arrive
@@ -127,9 +127,9 @@ void Feed::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {
   hands_.at(hand).playout.buttons(t, arrival);
 }
 
-void Feed::push_edge(double t, motion::ButtonEdge press, std::size_t hand) {
-  simulation_.push_edge(t, press, hand);
-  note(Accepted::kind_of(press), hand, t);
+void Feed::push_edge(double t, motion::ButtonEdge edge, std::size_t hand) {
+  simulation_.push_edge(t, edge, hand);
+  note(AcceptedInput::kind_of(edge), hand, t);
 }
 
 void Feed::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
@@ -137,7 +137,7 @@ void Feed::push_external_wrench(const motion::ExternalWrench& sample, std::size_
   if (record_) record_({Kind::external_wrench, hand, sample.t, RigidTransform::Identity(), sample, committed()});
 }
 
-void Feed::note(Accepted::Kind kind, std::size_t hand, double t, const RigidTransform& X_WS) const {
+void Feed::note(AcceptedInput::Kind kind, std::size_t hand, double t, const RigidTransform& X_WS) const {
   if (record_) record_({kind, hand, t, X_WS, {}, committed()});
 }
 
@@ -151,8 +151,8 @@ std::optional<double> Feed::next_stop(const LocalTime& now) const {
     rests = std::max(rests, hand.playout.rests_until(now));
   }
   const bool silent = has_sample_ && known == -kNever;
-  const double limit = silent ? rests : known, edge = simulation_.next_edge();
-  if (has_sample_ && edge <= limit) return edge;
+  const double limit = silent ? rests : known, event = simulation_.next_event_time();
+  if (has_sample_ && event <= limit) return event;
   const double step = simulation_.settings().dynamics.step, begin = simulation_.time();
   const double steps = silent ? std::floor((rests - begin) / step) : 0.0;
   return steps >= 1.0 ? std::optional<double>(begin + steps * step) : std::nullopt;
@@ -165,15 +165,15 @@ simulation::AdvanceReport Feed::advance_to(double t) {
   }
   simulation::AdvanceReport report;
   const auto go_to = [&](double end) {
-    const double edge = simulation_.next_edge();
-    report.add(simulation_.advance(end));
+    const double event = simulation_.next_event_time();
+    report.add(simulation_.advance_to(end));
     began_ = true;
-    if (edge > end) note(Accepted::Kind::rest, 0, end);
+    if (event > end) note(AcceptedInput::Kind::rest, 0, end);
   };
   for (const auto& [at, hand] : releases) {
     go_to(std::max(at, simulation_.time()));
     simulation_.release(hand);
-    note(Accepted::Kind::lost, hand, at);
+    note(AcceptedInput::Kind::lost, hand, at);
   }
   go_to(t);
   return report;

@@ -85,14 +85,14 @@ void Command::exchange(math::StateArchive& state) {
 }
 
 ChangeReport perform(const Command& command, simulation::Simulation& simulation) {
-  return simulation::reported(simulation, [&] { return make(command, simulation); });
+  return simulation::with_energy_report(simulation, [&] { return make(command, simulation); });
 }
 
 void take_forks(const simulation::Simulation& from, simulation::Simulation& to) {
   for (std::size_t hand = 0; hand < to.hands(); ++hand) {
     rod::ForkChange change = rod::change_to(from.fork_settings(hand));
     if (to.settings().grasp.calibrate == tools::Calibration::world) change.stiffness = {};
-    to.change(change, hand);
+    to.change(change, {}, hand);
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace spring_workbench::live {
 
-using hand_input::Accepted;
+using hand_input::AcceptedInput;
 
 Change comparison_of(const simulation::Simulation& simulation) {
   Change change;
@@ -36,7 +36,7 @@ std::vector<std::vector<Entry>> lives_of(std::vector<Entry> entries) {
 std::vector<Entry> from_first_complete(std::vector<Entry> entries) {
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.index < b.index; });
   const auto input = std::find_if(entries.begin(), entries.end(),
-                                  [](const Entry& e) { return std::holds_alternative<Accepted>(e.what); });
+                                  [](const Entry& e) { return std::holds_alternative<AcceptedInput>(e.what); });
   const auto first = std::make_reverse_iterator(input == entries.end() ? input : std::next(input));
   const auto after_gap = std::adjacent_find(
       first, entries.rend(), [](const Entry& later, const Entry& earlier) { return later.index != earlier.index + 1; });
@@ -67,28 +67,28 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
 
 void Replayer::advance_to_entry(double t, const AtStop& at_stop) {
   simulation::Simulation& simulation = simulation_.front();
-  for (double edge = simulation.next_edge(); edge <= t; edge = simulation.next_edge()) {
-    const simulation::AdvanceReport report = simulation.advance(edge);
+  for (double event = simulation.next_event_time(); event <= t; event = simulation.next_event_time()) {
+    const simulation::AdvanceReport report = simulation.advance_to(event);
     at_stop(simulation, report);
   }
   if (simulation.time() >= t) return;
-  const simulation::AdvanceReport report = simulation.advance(t);
+  const simulation::AdvanceReport report = simulation.advance_to(t);
   at_stop(simulation, report);
 }
 
-void Replayer::apply(const Accepted& accepted) {
+void Replayer::apply(const AcceptedInput& accepted) {
   simulation::Simulation& simulation = simulation_.front();
   if (accepted.hand >= simulation.hands()) {
     validation::refuse("journal", "stylus", std::to_string(accepted.hand + 1),
                        "at most " + std::to_string(simulation.hands()) + ", as in the preceding state");
   }
-  if (const auto press = Accepted::press_of(accepted.kind)) {
-    simulation.push_edge(accepted.t, *press, accepted.hand);
-  } else if (accepted.kind == Accepted::Kind::pose) {
+  if (const auto edge = AcceptedInput::edge_of(accepted.kind)) {
+    simulation.push_edge(accepted.t, *edge, accepted.hand);
+  } else if (accepted.kind == AcceptedInput::Kind::pose) {
     simulation.push_stylus({accepted.t, accepted.X_WS}, accepted.hand);
-  } else if (accepted.kind == Accepted::Kind::lost) {
+  } else if (accepted.kind == AcceptedInput::Kind::lost) {
     simulation.release(accepted.hand);
-  } else if (accepted.kind == Accepted::Kind::external_wrench) {
+  } else if (accepted.kind == AcceptedInput::Kind::external_wrench) {
     simulation.push_external_wrench(accepted.wrench, accepted.hand);
   }
 }
@@ -98,8 +98,8 @@ void Replayer::apply(const Change& change) {
   if (hash != change.hash_before) {
     throw validation::InputError("journal: the state before \"" + change.what + "\" at " +
                                  std::to_string(simulation_.front().time()) +
-                                 " s differs from the recorded one: hash " + simulation::to_hex(hash) + ", recorded " +
-                                 simulation::to_hex(change.hash_before));
+                                 " s differs from the recorded one: hash " + math::to_hex(hash) + ", recorded " +
+                                 math::to_hex(change.hash_before));
   }
   if (change.state == simulation::SimulationState()) return;
   const bool again = repeat(change);
@@ -109,8 +109,7 @@ void Replayer::apply(const Change& change) {
   if (same) return;
   if (again) {
     changes_.mismatches.push_back(change.what + " at " + std::to_string(simulation_.front().time()) + " s: state " +
-                                  simulation::to_hex(state.hash()) + ", recorded " +
-                                  simulation::to_hex(change.state.hash()));
+                                  math::to_hex(state.hash()) + ", recorded " + math::to_hex(change.state.hash()));
   }
   if (change.scene != scene_) simulation_.front() = simulation::Simulation(load_scene_(change.scene), settings_);
   scene_ = change.scene;

@@ -8,18 +8,18 @@
 namespace spring_workbench::live {
 
 void LookAhead::show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t) {
-  copy_.follow(committed);
+  copy_.copy_state_from(committed);
   has_followed_ = true;
   if (feed.has_sample()) {
     feed.predict(t, copy_);
-    copy_.advance(t);
+    copy_.advance_to(t);
   }
   for (const Held& one : held_in_copy_.of(copy_)) shown_.push_back(one);
 }
 
 double LookAhead::show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
                               const Pace& pace) {
-  const double newest = committed.newest_sample();
+  const double newest = committed.newest_sample_time();
   if (up_to_date_ && horizon == 0.0) return std::max(copy_.time() - newest, 0.0);
   double t = committed.time();
   if (feed.has_sample()) {
@@ -36,13 +36,13 @@ double LookAhead::show_newest(const simulation::Simulation& committed, const han
 StepTime LookAhead::time_of_step(const simulation::Simulation& committed, const hand_input::Feed& feed,
                                  const Pace& pace) {
   const simulation::SimulationState shown = copy_.save();
-  copy_.follow(committed);
+  copy_.copy_state_from(committed);
   StepTime step{copy_.settings().dynamics.step / copy_.settings().hand_time_scale, 0.0};
   const double end = copy_.time() + 2.0 * step.lasts;
   feed.predict(end, copy_);
-  copy_.advance(end - step.lasts);
+  copy_.advance_to(end - step.lasts);
   const double begin = pace.now();
-  copy_.advance(end);
+  copy_.advance_to(end);
   step.takes = pace.now() - begin;
   copy_.restore(shown);
   return step;

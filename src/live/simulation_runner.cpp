@@ -74,7 +74,7 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   for (HandInput& input : inputs_) input.add_to(report);
   report.input_age += feed_.time_since_arrival(now);
   report.wall_time = pace_.now() - begin;
-  const double lag = simulation_.newest_sample() - simulation_.time();
+  const double lag = simulation_.newest_sample_time() - simulation_.time();
   if (!simulated_time_) pace_.committed(report.advance.simulated_time, report.wall_time, lag);
   if (!feed_.next_stop(now)) pace_.caught_up();
   report.behind = pace_.is_behind();
@@ -99,9 +99,9 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   if (!std::holds_alternative<ButtonsKnown>(event)) ahead_.input_changed();
   if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event))
     return std::visit([&](const auto& e) { apply(input, e); }, event);
-  const double newest = simulation_.newest_sample();
+  const double newest = simulation_.newest_sample_time();
   if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.report_arrival(pose->arrival, input.hand);
-  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_edge(newest, button->press, input.hand);
+  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_edge(newest, button->edge, input.hand);
   if (const auto* wrench = std::get_if<StylusWrench>(&event)) push(input, *wrench, newest);
 }
 
@@ -118,14 +118,14 @@ std::optional<Shown> SimulationRunner::show(double latency, const hand_input::Lo
       latency > 0.0 ? std::min(latency + feed_.time_since_arrival(now), motion::PosePredictor::farthest) : 0.0;
   const double beyond = ahead_.show_newest(simulation_, feed_, horizon, pace_);
   const simulation::Simulation& shown = ahead_.shown();
-  const Moment at = moment_at(shown.time(), feed_.has_sample());
+  const Progress at = progress_at(shown.time(), feed_.has_sample());
   if (!ahead_.has_followed() || !wanted(at)) return std::nullopt;
   return Shown{{at, view_of(shown, scene_, shown_objects_)}, beyond};
 }
 
 std::optional<Committed> SimulationRunner::committed(const Wanted& wanted) const {
   const Lock lock(mutex_);
-  const Moment at = moment_at(simulation_.time(), std::isfinite(feed_.committed()));
+  const Progress at = progress_at(simulation_.time(), std::isfinite(feed_.committed()));
   if (!wanted(at)) return std::nullopt;
   return Committed{{at, view_of(simulation_, scene_, objects_)}, task_.placements(), task_.score()};
 }
@@ -151,7 +151,7 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
 
 /// A hand's time as simulation time [s]. If too far ahead, all hands' times move to a step after the newest input.
 double SimulationRunner::time_of(const HandInput& input, double t) {
-  const double ahead = times_.time_of(input.hand, t) - std::max(simulation_.time(), simulation_.newest_sample());
+  const double ahead = times_.time_of(input.hand, t) - std::max(simulation_.time(), simulation_.newest_sample_time());
   if (feed_.has_sample() && ahead > (was_behind_ ? 0.0 : longest_catch_up)) {
     was_behind_ = false;
     times_.skip(std::max(ahead - simulation_.settings().dynamics.step, 0.0));
@@ -169,7 +169,7 @@ void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
-  feed_.push_edge(time_of(input, button.t), button.press, input.hand);
+  feed_.push_edge(time_of(input, button.t), button.edge, input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
@@ -218,7 +218,7 @@ ChangeReport SimulationRunner::begin_with(NextScene& next, const std::string& wh
   return change_to(next, what, command, [&] {
     if (command.kind == Command::Kind::load_scene) take_forks(simulation_, *next.committed);
     ChangeReport report =
-        simulation::reported(simulation_, [&] { return std::swap(simulation_, *next.committed), what; });
+        simulation::with_energy_report(simulation_, [&] { return std::swap(simulation_, *next.committed), what; });
     undo_ = Undo();
     restart_time();
     places_ = std::move(next.places);
@@ -242,7 +242,7 @@ void SimulationRunner::keep_journal(bool keep) {
   const Lock lock(mutex_);
   keeps_journal_ = keep;
   if (!keep) return feed_.record(nullptr);
-  feed_.record([this](const hand_input::Accepted& accepted) {
+  feed_.record([this](const hand_input::AcceptedInput& accepted) {
     journal_.note(accepted.committed, times_.stamp_of(accepted.t), accepted);
   });
   const RecordedChange noted(*this, "the journal begins", {});

@@ -9,7 +9,7 @@ Places put_to_rest(simulation::Simulation& simulation, double now) {
   Places places;
   for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
   simulation.reset();
-  simulation.advance(now);  // without samples this takes no steps
+  simulation.advance_to(now);  // without samples this takes no steps
   simulation.reset();
   simulation.place(places);
   return places;
@@ -17,21 +17,19 @@ Places put_to_rest(simulation::Simulation& simulation, double now) {
 
 std::optional<simulation::Simulation> Undo::prepare(const Command& command,
                                                     const simulation::Simulation& simulation) const {
-  if (command.kind == Command::Kind::edit) return simulation.edited(command.edit, command.roots);
-  if (command.kind != Command::Kind::undo) return std::nullopt;
-  std::optional<simulation::Simulation> next = simulation.edited(last().second), none;
-  if (next) next->go_back_to(last().second, none);
-  return next;
+  if (command.kind == Command::Kind::edit) return simulation.prepare_edit(command.edit, command.roots);
+  if (command.kind == Command::Kind::undo) return simulation.prepare_rewind(last().second);
+  return std::nullopt;
 }
 
 ChangeReport Undo::perform(const Command& command, simulation::Simulation& simulation,
                            std::optional<simulation::Simulation>& next) {
   if (command.kind == Command::Kind::undo)
-    return simulation::reported(simulation, [&] { return take_back(simulation, next); });
+    return simulation::with_energy_report(simulation, [&] { return take_back(simulation, next); });
   const bool edit = command.kind == Command::Kind::edit;
   if (!edit && command.kind != Command::Kind::reset) return live::perform(command, simulation);
   simulation::SimulationState before = simulation.save();
-  ChangeReport report = edit ? simulation.edit(command.edit, next) : live::perform(command, simulation);
+  ChangeReport report = edit ? simulation.apply_edit(command.edit, next) : live::perform(command, simulation);
   before_.emplace_back(edit ? report.message : "reset", std::move(before));
   if (before_.size() > max_undo_steps) before_.pop_front();
   return report;
@@ -43,7 +41,7 @@ const Undo::Before& Undo::last() const {
 }
 
 std::string Undo::take_back(simulation::Simulation& simulation, std::optional<simulation::Simulation>& next) {
-  simulation.go_back_to(last().second, next);
+  simulation.rewind_to(last().second, next);
   std::string undone = std::move(before_.back().first);
   before_.pop_back();
   return undone;

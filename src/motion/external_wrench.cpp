@@ -41,7 +41,7 @@ bool WrenchTrack::follow(double now, double same_time) {
   return timed_out;
 }
 
-double WrenchTrack::next_edge(double now, double same_time) const {
+double WrenchTrack::next_change_time(double now, double same_time) const {
   double next = std::numeric_limits<double>::infinity();
   const auto take = [&](double t) { next = t > now + same_time ? std::min(next, t) : next; };
   for (const ExternalWrench& sample : next_) take(sample.t);

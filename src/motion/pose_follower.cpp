@@ -21,7 +21,7 @@ const RigidTransform& PoseFollower::advance(double dt) {
   const Vector3d turn = math::turn_between(X_, goal_);
   if (path.norm() < arrived && turn.norm() < arrived) return X_ = goal_;
   const Quaterniond q(X_.linear() * math::exp_so3(share(turn.norm(), dt, max_turn_rate) * turn));
-  X_ = make_transform(q, X_.translation() + share(path.norm(), dt, max_speed) * path);
+  X_ = make_transform(X_.translation() + share(path.norm(), dt, max_speed) * path, q);
   return X_;
 }
 

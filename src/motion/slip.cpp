@@ -14,7 +14,7 @@ void Slip::begin(const RigidTransform& X_WS, const RigidTransform& X_WS_tool) {
 }
 
 RigidTransform Slip::displaced(const RigidTransform& X_WS, double left) const {
-  return make_transform(Quaterniond(X_WS.linear() * math::exp_so3(left * turn_S_)), X_WS.translation() + left * by_W_);
+  return make_transform(X_WS.translation() + left * by_W_, Quaterniond(X_WS.linear() * math::exp_so3(left * turn_S_)));
 }
 
 MotionSegment Slip::motion(const MotionSegment& hand, double now, double h) {

@@ -55,7 +55,7 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
   for (std::size_t i = 0; i < 3; ++i) p[static_cast<Eigen::Index>(i)] = number(i + 1, farthest_position);
   const Quaterniond q(number(7, 2.0), number(4, 2.0), number(5, 2.0), number(6, 2.0));
   validation::check_number(where, "norm of qx qy qz qw", q.norm(), validation::between(0.5, 2.0));
-  line.sample.X = make_transform(q, p);
+  line.sample.X = make_transform(p, q);
   line.sample.quaternion_norm = q.norm();
   if (words.size() == kFieldsWithButton) {
     if (words[8] != "0" && words[8] != "1") validation::refuse(where, "button", words[8].substr(0, 40), "0 or 1");

@@ -10,10 +10,10 @@
 
 namespace spring_workbench::objects {
 
-FreeObjects::FreeObjects(const scene::Scene& scene, int bisection_levels) : ObjectList(scene), contacts_(scene) {
+FreeObjects::FreeObjects(const scene::Scene& scene, int impact_bisections) : ObjectList(scene), contacts_(scene) {
   if (!with_contact()) return;
   collision_ = contact::open_collision_world(scene);
-  contact_stepper_ = std::make_unique<contact::ContactStepper>(scene, *collision_, bisection_levels);
+  contact_stepper_ = std::make_unique<contact::ContactStepper>(scene, *collision_, impact_bisections);
 }
 
 void FreeObjects::return_to_start() {

@@ -16,7 +16,7 @@ void ObjectList::return_to_start() {
   for (std::size_t i = 0; i < in_scene_.size(); ++i) states_.push_back(bodies::at_start(body(i)));
   highlighted_.clear();
   changes_.reset(states_.size());
-  reset_moment_ = changes_.now();
+  reset_revision_ = changes_.now();
 }
 
 std::optional<std::size_t> ObjectList::find(const std::string& name) const {

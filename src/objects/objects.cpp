@@ -9,7 +9,7 @@
 
 namespace spring_workbench::objects {
 
-Objects::Objects(const scene::Scene& scene, int bisection_levels) : FreeObjects(scene, bisection_levels) {
+Objects::Objects(const scene::Scene& scene, int impact_bisections) : FreeObjects(scene, impact_bisections) {
   if (scene.contact == scene::ContactMode::dynamic) {
     pairs_ = std::make_unique<FreePairs>(scene, *collision_, *contact_stepper_);
   }
@@ -226,7 +226,7 @@ void Objects::note_world_contacts(double h) {
 
 std::vector<std::size_t> Objects::Archive::moved() const {
   std::vector<std::size_t> moved;
-  for (const std::size_t i : of_.changes_.since(of_.reset_moment_)) {
+  for (const std::size_t i : of_.changes_.since(of_.reset_revision_)) {
     const Object& object = of_.objects_[i];
     const bool unchanged_since_reset = !object.free_body && object.rows.empty() && !object.carried() &&
                                        object.slow_since == 0.0 &&

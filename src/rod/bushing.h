@@ -22,7 +22,7 @@ class Bushing final : public ShapeModel {
   void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
   bool strain_is_pose() const override { return true; }
   double extension(const StrainVector& q) const override { return q[5]; }
-  double twist(const StrainVector& q) const override { return q[4]; }
+  double torsion_angle(const StrainVector& q) const override { return q[4]; }
   RigidTransform section(const StrainVector& q, double s) const override;
   bool rechart(StrainVector& q, StrainVector& q_dot) const override;
   double range_used(const StrainVector& q) const override;

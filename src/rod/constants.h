@@ -77,9 +77,9 @@ constexpr double farthest = 0.5;
 /// Largest deviation of a change from the one that the Jacobian predicts, relative to it. Larger: another solution may
 /// be found. Test: Linear.SeveralAtOnceAreEachByItself at 100.
 constexpr double max_nonlinearity = 0.5;
-/// Smallest singular value of the scaled Jacobian that counts as regular: that of a straight rod compressed to the end
-/// of its range (uncompressed: 0.1). In a direction with a smaller one, the tip is at the boundary of its workspace.
-/// Test: Linear.FindsTheStrainAndItsRateForTheTipsMotion at 0.3.
+/// Smallest singular value of the scaled Jacobian that counts as nonsingular: that of a straight rod compressed to the
+/// end of its range (uncompressed: 0.1). In a direction with a smaller one, the tip is at the boundary of its
+/// workspace. Test: Linear.FindsTheStrainAndItsRateForTheTipsMotion at 0.3.
 constexpr double min_motion = 1e-3;
 
 }  // namespace spring_workbench::rod

@@ -176,7 +176,7 @@ void StrainRod::tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pa
 
 double StrainRod::extension(const StrainVector& q) const { return q[stretch().begin] * length(); }
 
-double StrainRod::twist(const StrainVector& q) const { return q[torsion().begin] * length(); }
+double StrainRod::torsion_angle(const StrainVector& q) const { return q[torsion().begin] * length(); }
 
 RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   const LinearStrain<double> k = curvature(q.data());
@@ -198,8 +198,8 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
     }
     turned = to_middle * ends.after;
   }
-  return make_transform(Quaterniond(turned.w, turned.v.x, turned.v.y, turned.v.z),
-                        (1.0 + q[stretch().begin]) * vector(p));
+  return make_transform((1.0 + q[stretch().begin]) * vector(p),
+                        Quaterniond(turned.w, turned.v.x, turned.v.y, turned.v.z));
 }
 
 double StrainRod::range_used(const StrainVector& q) const {

@@ -18,7 +18,7 @@ class StrainRod final : public ShapeModel {
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
   void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
   double extension(const StrainVector& q) const override;
-  double twist(const StrainVector& q) const override;
+  double torsion_angle(const StrainVector& q) const override;
   RigidTransform section(const StrainVector& q, double s) const override;
   double range_used(const StrainVector& q) const override;
 

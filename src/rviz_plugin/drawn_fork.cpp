@@ -44,7 +44,7 @@ void DrawnFork::deform(const ForkState& fork) {
   }
   const auto& p = fork.proxy_handle.position;
   const auto& r = fork.proxy_handle.orientation;
-  const RigidTransform X_WH = make_transform(Quaterniond(r.w, r.x, r.y, r.z), Vector3d(p.x, p.y, p.z));
+  const RigidTransform X_WH = make_transform(Vector3d(p.x, p.y, p.z), Quaterniond(r.w, r.x, r.y, r.z));
   if (fork.tool != tool_) {
     model_ = fork_mesh::ForkModel(fork_mesh::appearance_of(fork.tool));
     tool_ = fork.tool;

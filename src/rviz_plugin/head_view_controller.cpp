@@ -20,7 +20,7 @@ namespace {
 RigidTransform pose_of(const geometry_msgs::Transform& message) {
   const auto& p = message.translation;
   const auto& q = message.rotation;
-  return make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+  return make_transform(Vector3d(p.x, p.y, p.z), Quaterniond(q.w, q.x, q.y, q.z));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void StepFigures::refresh(double now) {
     skipped_->clear();
     return;
   }
-  const bool bounded = steps_->steps > 0 && steps_->steps_unbounded == 0;
+  const bool bounded = steps_->steps > 0 && steps_->integrations_without_bound == 0;
   figures_->setText(QString("cycle %1 ms, error %2 m%3, %4 deadlines missed")
                         .arg(1e3 * steps_->wall_time, 0, 'f', 3)
                         .arg(steps_->position_error, 0, 'g', 2)

@@ -16,7 +16,7 @@ RigidTransform to_transform(const urdf::Pose& pose, const std::string& where) {
   if (!p.allFinite() || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.0)) {
     validation::refuse(where, "origin", "a finite pose");
   }
-  return make_transform(rotation, p);
+  return make_transform(p, rotation);
 }
 
 /// The links of a body: its first link and those attached to it by fixed joints, each with its pose in the first link's

@@ -58,8 +58,8 @@ motion::StylusSample PlayedMotion::at(double t) const {
   sample.t = t;
   if (later == samples_.end() || later == samples_.begin()) return sample;
   const double u = (within - a.t) / (later->t - a.t);
-  sample.X = make_transform(Quaterniond(a.X.linear()).slerp(u, Quaterniond(later->X.linear())),
-                            (1.0 - u) * a.X.translation() + u * later->X.translation());
+  sample.X = make_transform((1.0 - u) * a.X.translation() + u * later->X.translation(),
+                            Quaterniond(a.X.linear()).slerp(u, Quaterniond(later->X.linear())));
   return sample;
 }
 

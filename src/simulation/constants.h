@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 // Each with its unit, the effect of a change, and the test that detects it (scripts/mutate).
 
 namespace spring_workbench::simulation {
@@ -13,7 +11,5 @@ constexpr double longest_ray = 2.0;
 /// Ratio of distances below which another object replaces the highlighted one. At 1, a trembling tip alternates between
 /// two objects. Test: Overlapping.TheOtherIsSelectedOnlyIfItIsNearerByAFifth.
 constexpr double switch_ratio = 0.8;
-/// Hexadecimal digits per word in the text of a state. Test: State.RestoredAfterAnythingGivesTheSameFuture.
-constexpr std::size_t word_digits = 16;
 
 }  // namespace spring_workbench::simulation

@@ -60,13 +60,13 @@ void Hand::apply_buttons(double now) {
     }
     grasped_by_name_ = true;
   }
-  while (const auto press = stylus_.take_press(now)) {
-    if (*press == motion::ButtonEdge::next_tool) {
+  while (const auto edge = stylus_.take_edge(now)) {
+    if (*edge == motion::ButtonEdge::next_tool) {
       select_tool(tools::next_tool(tool_, hold_ != nullptr), now);
-    } else if (*press == motion::ButtonEdge::clutch_on || *press == motion::ButtonEdge::clutch_off) {
-      set_clutch(*press == motion::ButtonEdge::clutch_on, now);
+    } else if (*edge == motion::ButtonEdge::clutch_on || *edge == motion::ButtonEdge::clutch_off) {
+      set_clutch(*edge == motion::ButtonEdge::clutch_on, now);
     } else if (settings_.grasp.object.empty()) {
-      apply_grasp_button(*press == motion::ButtonEdge::grasp, now);
+      apply_grasp_button(*edge == motion::ButtonEdge::grasp, now);
     }
   }
 }

@@ -218,10 +218,10 @@ std::vector<Field> grasp_fields(S& s) {
              "if the gap between two samples is longer, the handle is at rest until the next sample", s.dropout_after),
       number("external_wrench_timeout", "s", between(1e-3, 10.0),
              "how long an external wrench acts if no newer one arrives; it is zero after that", s.wrench_timeout),
-      integer("bisection_levels", 0, 30,
+      integer("impact_bisections", 0, 30,
               "number of bisections that find the end of a step in which contact begins (section 5 of the paper); 0: "
               "the time of impact is computed instead",
-              s.bisection_levels),
+              s.impact_bisections),
   };
 }
 

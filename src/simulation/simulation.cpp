@@ -96,6 +96,15 @@ void check_origin(const std::string& saved, const std::string& present) {
     validation::refuse("", "state", "that of a simulation without " + more);
 }
 
+/// Restores a state with nothing held, no samples, and the objects at rest.
+void restore_at_rest(const SimulationState& state, Simulation& simulation) {
+  simulation.restore(state);
+  std::map<std::string, RigidTransform> X_WO;
+  for (const bodies::BodyState& object : simulation.objects()) X_WO[object.name] = object.X_WO;
+  simulation.reset();
+  simulation.place(X_WO);
+}
+
 }  // namespace
 
 struct Simulation::Impl {
@@ -120,7 +129,7 @@ struct Simulation::Impl {
         settings(set),
         scene(set_up(s, set, edits, roots)),
         origin(origin_of(s, scene.contact, set)),
-        objects(scene, set.bisection_levels) {
+        objects(scene, set.impact_bisections) {
     const auto tool = validation::named<tools::Tool>(scene.tool, scene.path, "tool");
     if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
     for (int i = 0; i < settings.styluses; ++i) hands.emplace_back(scene, settings, objects, tool);
@@ -160,8 +169,8 @@ struct Simulation::Impl {
   double next_sample(double after) const {
     return earliest([&](const motion::Stylus& stylus) { return stylus.next_sample(after); });
   }
-  double next_edge() const {
-    return earliest([&](const motion::Stylus& stylus) { return stylus.next_edge(now); });
+  double next_event_time() const {
+    return earliest([&](const motion::Stylus& stylus) { return stylus.next_event_time(now); });
   }
   void start(double t_end);
   void advance(double t_end, AdvanceReport& report);
@@ -187,7 +196,9 @@ struct Simulation::Impl {
   /// Saves or restores time and the hands' input.
   void exchange_input(math::StateArchive& state);
   /// The given scene with these edits; nothing if they are the present ones.
-  std::optional<Simulation> edited(const std::vector<ObjectEdit>& next, const std::vector<std::string>& roots) const;
+  std::optional<Simulation> with_edits(const std::vector<ObjectEdit>& next,
+                                       const std::vector<std::string>& roots) const;
+  std::optional<Simulation> with_edits_of(const SimulationState& state) const;
   void move(const ObjectEdit& edit);
   /// Takes over the state of `before`, whose scene differs only by `edit`.
   void continue_from(Impl& before, const ObjectEdit& edit);
@@ -242,13 +253,13 @@ void Simulation::Impl::act(AdvanceReport& report) {
 
 /// End time of the next step: at the next sample, button edge or change of a wrench, or earlier.
 double Simulation::Impl::end_of_step(double t_end) const {
-  const double next_sample = this->next_sample(now + same_time), next_edge = this->next_edge();
+  const double next_sample = this->next_sample(now + same_time), next_event = this->next_event_time();
   // Equal steps up to the sample or the end, instead of a small last step.
   const double stretch_end = next_sample < t_end + same_time ? next_sample : t_end;
   const double count = std::ceil((stretch_end - now) / settings.dynamics.step - 1e-9);
   const double end = count > 1.0 ? now + (stretch_end - now) / count : stretch_end;
   // An edge that differs only by a rounding error does not get a step of its own.
-  return std::abs(next_edge - end) < same_time ? std::max(end, next_edge) : std::min(end, next_edge);
+  return std::abs(next_event - end) < same_time ? std::max(end, next_event) : std::min(end, next_event);
 }
 
 /// Sum of these hands' external wrenches and of their slipping tools' wrenches on an object, at its centre, world axes.
@@ -446,16 +457,16 @@ bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand)
   return impl_->hand(hand).stylus().push(in_world);
 }
 
-void Simulation::push_edge(double t, motion::ButtonEdge press, std::size_t hand) {
+void Simulation::push_edge(double t, motion::ButtonEdge edge, std::size_t hand) {
   validation::check_number("", "t", t, validation::any_number());
-  impl_->hand(hand).stylus().push(impl_->in_world(t), press);
+  impl_->hand(hand).stylus().push(impl_->in_world(t), edge);
 }
 
 void Simulation::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
   impl_->hand(hand).stylus().push(motion::ExternalWrench{impl_->in_world(sample.t), sample.wrench, sample.axes});
 }
 
-double Simulation::newest_sample() const {
+double Simulation::newest_sample_time() const {
   double newest = -std::numeric_limits<double>::infinity();
   for (const Hand& hand : impl_->hands) {
     if (!hand.stylus().track().empty()) newest = std::max(newest, hand.stylus().track().end());
@@ -463,12 +474,12 @@ double Simulation::newest_sample() const {
   return std::isfinite(newest) ? impl_->of_hand(newest) : time();
 }
 
-double Simulation::next_edge() const {
+double Simulation::next_event_time() const {
   if (!impl_->started) return impl_->of_hand(impl_->first_sample());
-  return impl_->of_hand(std::min(impl_->next_sample(impl_->now + same_time), impl_->next_edge()));
+  return impl_->of_hand(std::min(impl_->next_sample(impl_->now + same_time), impl_->next_event_time()));
 }
 
-AdvanceReport Simulation::advance(double t_end) {
+AdvanceReport Simulation::advance_to(double t_end) {
   validation::check_number("", "t_end", t_end, validation::any_number());
   AdvanceReport report;
   impl_->requested_time = t_end;
@@ -505,7 +516,7 @@ bool Simulation::release(std::optional<std::size_t> hand) {
 const rod::ForkSettings& Simulation::fork_settings(std::size_t hand) const { return impl_->hand(hand).fork(); }
 
 ChangeReport Simulation::select_tool(tools::Tool tool, std::optional<std::size_t> hand) {
-  return reported(*this, [&] {
+  return with_energy_report(*this, [&] {
     bool held = false;
     impl_->with_handover([&] {
       for (Hand* of : impl_->chosen(hand)) {
@@ -526,7 +537,7 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
     changed.fork = fork.applied_to(of->fork());
     validate(changed, "");
   }
-  return reported(*this, [&] {
+  return with_energy_report(*this, [&] {
     std::string message = fork.empty() && dynamics.empty() ? "nothing changed" : "set";
     for (Hand* of : impl_->chosen(hand)) {
       const rod::ForkSettings next = fork.applied_to(of->fork());
@@ -582,24 +593,25 @@ void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   }
 }
 
-std::optional<Simulation> Simulation::Impl::edited(const std::vector<ObjectEdit>& next,
-                                                   const std::vector<std::string>& roots) const {
+std::optional<Simulation> Simulation::Impl::with_edits(const std::vector<ObjectEdit>& next,
+                                                       const std::vector<std::string>& roots) const {
   if (next == edits) return std::nullopt;
   return Simulation(std::make_unique<Impl>(given_scene, given_settings, next, roots));
 }
 
-std::optional<Simulation> Simulation::edited(const ObjectEdit& edit, const std::vector<std::string>& roots) const {
+std::optional<Simulation> Simulation::Impl::with_edits_of(const SimulationState& state) const {
+  check_origin(state.origin_, origin);
+  return with_edits(state.edits(), {});
+}
+
+std::optional<Simulation> Simulation::prepare_edit(const ObjectEdit& edit,
+                                                   const std::vector<std::string>& roots) const {
   validate(edit);
-  return impl_->edited(with(impl_->edits, edit), roots);
+  return impl_->with_edits(with(impl_->edits, edit), roots);
 }
 
-std::optional<Simulation> Simulation::edited(const SimulationState& state) const {
-  check_origin(state.origin_, impl_->origin);
-  return impl_->edited(state.edits(), {});
-}
-
-ChangeReport Simulation::edit(const ObjectEdit& edit, std::optional<Simulation>& next) {
-  return reported(*this, [&] {
+ChangeReport Simulation::apply_edit(const ObjectEdit& edit, std::optional<Simulation>& next) {
+  return with_energy_report(*this, [&] {
     if (edit.action == Action::move) impl_->move(edit);
     if (next) next->impl_->continue_from(*impl_, edit);
     if (next) std::swap(*this, *next);
@@ -608,7 +620,7 @@ ChangeReport Simulation::edit(const ObjectEdit& edit, std::optional<Simulation>&
 }
 
 ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
-  return reported(*this, [&] {
+  return with_energy_report(*this, [&] {
     std::string message;
     for (Hand* of : impl_->chosen(hand)) of->calibrate(message, impl_->now);
     if (!message.empty()) return message;
@@ -628,36 +640,38 @@ SimulationState Simulation::save() const {
 }
 
 void Simulation::restore(const SimulationState& state) {
-  std::optional<Simulation> next = edited(state);
+  std::optional<Simulation> next = impl_->with_edits_of(state);
   (next ? *next : *this).impl_->restore(state.words_);
   if (next) std::swap(*this, *next);
 }
 
-void Simulation::go_back_to(const SimulationState& state, std::optional<Simulation>& next) {
+std::optional<Simulation> Simulation::prepare_rewind(const SimulationState& state) const {
+  std::optional<Simulation> next = impl_->with_edits_of(state);
+  if (next) restore_at_rest(state, *next);
+  return next;
+}
+
+void Simulation::rewind_to(const SimulationState& state, std::optional<Simulation>& next) {
   math::StateArchive input;
   impl_->exchange_input(input);
   if (next) {
     std::swap(*this, *next);
   } else {
-    impl_->restore(state.words_);
-    std::map<std::string, RigidTransform> X_WO;
-    for (const bodies::BodyState& object : objects()) X_WO[object.name] = object.X_WO;
-    reset();
-    place(X_WO);
+    restore_at_rest(state, *this);
   }
   math::StateArchive kept(input.taken());
   impl_->exchange_input(kept);
   impl_->objects.begin(impl_->now);
 }
 
-void Simulation::follow(const Simulation& other) {
+void Simulation::copy_state_from(const Simulation& other) {
   if (other.impl_->origin != impl_->origin || !(other.impl_->edits == impl_->edits)) return restore(other.save());
   bodies::Changes &own = impl_->objects.changes(), &others = other.impl_->objects.changes();
   const std::vector<std::size_t> differing = own.differing(others);
   math::StateArchive archive;
   other.impl_->exchange(archive, &differing);
   impl_->set(archive.taken(), &differing);
-  own.followed(others);
+  own.mark_equal_to(others);
 }
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
@@ -673,7 +687,7 @@ double Simulation::elastic_energy() const {
 
 double Simulation::energy() const { return elastic_energy() + impl_->objects.energy(); }
 
-ChangeReport reported(const Simulation& simulation, const std::function<std::string()>& change) {
+ChangeReport with_energy_report(const Simulation& simulation, const std::function<std::string()>& change) {
   const double elastic = simulation.elastic_energy(), all = simulation.energy();
   const std::string message = change();
   return {elastic, simulation.elastic_energy(), simulation.energy() - all, message};

@@ -10,8 +10,8 @@ namespace {
 
 /// Returns the same forcing with the frames of the couplings at rest in the frame of the handle.
 dynamics::HandleForcing with_frames_at_rest(dynamics::HandleForcing handle) {
-  for (std::size_t i = 0; i < handle.seen.count; ++i) {
-    handle.seen.in_frame(i).v_AB = handle.seen.in_frame(i).w_AB = math::none<double>();
+  for (std::size_t i = 0; i < handle.relative_motions.count; ++i) {
+    handle.relative_motions.in_frame(i).v_AB = handle.relative_motions.in_frame(i).w_AB = math::none<double>();
   }
   return handle;
 }
@@ -79,9 +79,9 @@ dynamics::HandleForcing over_step(const dynamics::HeldBody& body, const motion::
                                   double h) {
   dynamics::HandleForcing over = body.forcing(handle, t + h);
   const dynamics::HandleForcing middle = body.forcing(handle, t + 0.5 * h);
-  over.angular_velocity = middle.angular_velocity;
-  over.angular_acceleration = middle.angular_acceleration;
-  over.acceleration_less_gravity = middle.acceleration_less_gravity;
+  over.w_WH_H = middle.w_WH_H;
+  over.alpha_WH_H = middle.alpha_WH_H;
+  over.proper_acceleration_H = middle.proper_acceleration_H;
   return over;
 }
 
@@ -104,7 +104,7 @@ double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForci
   const Vector3d p_at_end = position(end);
   // Weight, the handle's acceleration and the contact's force are constant on the way; other loads are as at the begin.
   const auto R_HW = handle.X_WH.linear().transpose();
-  const Vector3d force = R_HW * body.load().force - body.body().mass * handle.acceleration_less_gravity;
+  const Vector3d force = R_HW * body.load().force - body.body().mass * handle.proper_acceleration_H;
   const Wrench others = body.read_couplings(still, at_rest).pull_W;
   Vector6d accounted;
   accounted << force + R_HW * others.force, R_HW * others.moment;

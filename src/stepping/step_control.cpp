@@ -39,7 +39,7 @@ void begin_bound(const dynamics::HeldBody& body, double t, const dynamics::Strai
   memory.bounded = free;
   if (goes_on) return;
   memory.exact = state;
-  memory.spread = dynamics::RunError::Moments::Zero(2 * n, 2 * n);
+  memory.spread = dynamics::RunError::Spread::Zero(2 * n, 2 * n);
 }
 
 /// Restarts the bound at this state; in this span there is none.
@@ -76,7 +76,7 @@ struct StepControl::Tried {
 
 StepControl::StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance, bool error_bound)
     : integrator_(std::move(integrator)), tolerance_(tolerance), error_bound_(error_bound) {
-  if (error_bound_ && !integrator_->follows_errors()) {
+  if (error_bound_ && !integrator_->tracks_run_error()) {
     companion_ = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
   }
 }
@@ -187,12 +187,12 @@ void StepControl::follow_error(Span& span, double t, double h, const Tried& trie
   dynamics::RunError run{body.zero_state(), memory.spread};
   if (companion_ != nullptr) {
     known = companion_->step(body, span.handle, t, h, exact).converged;
-    if (known) companion_->follow(body, run);
+    if (known) companion_->propagate_run_error(body, run);
     exact.q -= run.estimate.q;
     exact.q_dot -= run.estimate.q_dot;
   } else if (known) {
     run.estimate = {begin.q - exact.q, begin.q_dot - exact.q_dot};
-    integrator_->follow(body, run);
+    integrator_->propagate_run_error(body, run);
     exact = {tried.state.q - run.estimate.q, tried.state.q_dot - run.estimate.q_dot};
     const double directions = std::min<double>(3.0, static_cast<double>(body.size()));
     local = tried.position_error + local_margin * run.uncertainty * std::sqrt(directions / body.body().mass);
@@ -283,7 +283,7 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::S
     double growth = least_growth;
     bool good = false;
     if (tried.solved) {
-      integrator_->carry(span.body, span.handle, t, dt, state, tried.state, error);
+      integrator_->propagate_deviation(span.body, span.handle, t, dt, state, tried.state, error);
       const auto amplitude = [&](const rod::StrainVector& q, const rod::StrainVector& q_dot) {
         return std::hypot(span.length(t + dt, tried.state, q), span.length(t + dt, tried.state, memory.swing * q_dot));
       };

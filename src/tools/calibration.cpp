@@ -38,8 +38,8 @@ class UnitMassOnFork {
   double deflection() const {                                                 ///< of the tip [m]
     return held_.shape().section(q_, held_.shape().length()).translation().head<2>().norm();
   }
-  double twist() const { return std::abs(held_.shape().twist(q_)); }  ///< [rad]
-  double axial_inertia() const { return held_.axial_inertia(); }      ///< [kg·m²]
+  double twist() const { return std::abs(held_.shape().torsion_angle(q_)); }  ///< [rad]
+  double axial_inertia() const { return held_.axial_inertia(); }              ///< [kg·m²]
 
  private:
   dynamics::HeldBody held_;

@@ -9,7 +9,7 @@
 namespace spring_workbench::tools {
 namespace {
 
-RigidTransform normalised(const RigidTransform& X) { return make_transform(Quaterniond(X.linear()), X.translation()); }
+RigidTransform normalised(const RigidTransform& X) { return make_transform(X.translation(), Quaterniond(X.linear())); }
 
 }  // namespace
 

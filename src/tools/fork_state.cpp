@@ -1,9 +1,44 @@
-// Changes of the fork while it holds an object, and its state as reported.
+// The fork as one of several tools on an object, its changes while it holds one, and its state as reported.
 #include "fork_body.h"
 #include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::tools {
+
+const dynamics::Coupling& ForkBody::coupling() {
+  coupling_.set_strain(held_.full_state(state_.t, state_.strain).q);
+  return coupling_;
+}
+
+void ForkBody::stop_leading() {
+  if (!held_.coupled()) return;
+  state_.pull_W = pull();
+  held_.detach(0);
+}
+
+void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionState& object) {
+  sleep_ = Sleep();
+  state_.stepping = stepping::StepControl::Memory();
+  state_.t = t;
+  const bool rigid = held_.size() < rod::max_strain_coordinates;
+  state_.proxy = rigid ? leader.proxy() : motion::Proxy();
+  if (held_.size() == 0) {  // the leader is rigid, too: this one exerts no force, and its proxy follows the object
+    state_.pull_W = Wrench();
+    const RigidTransform by = object.X * held_.object(handle(), held_.zero_state()).X.inverse();
+    state_.proxy.place(by * state_.proxy.offset(), state_.proxy.rate());
+    return;
+  }
+  const motion::OwnAxesMotion A = state_.proxy.motion(hand_, t).in_own_axes(t);
+  const dynamics::RelativeMotion<double> A_O = dynamics::relative_motion(A, object);
+  dynamics::Pull<double> pull{};
+  coupling_.pull(t, A_O, pull);
+  const Matrix3d& R_WA = A.X.linear();
+  state_.pull_W = Wrench{R_WA * math::vector(pull.force), R_WA * math::vector(pull.moment)};
+  const ForkCoupling::Following following = coupling_.follow(A_O);
+  state_.strain = following.strain;
+  state_.proxy.place(A.X * following.X_HP * A.X.inverse() * state_.proxy.offset(), state_.proxy.rate());
+  if (held_.returning() && held_.drop_finished_returns(t) && held_.size() == 0) state_.strain = held_.zero_state();
+}
 
 rod::PerDof ForkBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const {
   return calibrated_stiffness(fork.shape, length(), held_.body(), gravity, goal);
@@ -40,7 +75,7 @@ void ForkBody::describe(bool massless, ToolState& f) const {
   f.X_WH = hand_pose();
   f.X_WH_proxy = handle().X_WH;
   f.stretch = shape.extension(full.q);
-  f.torsion = shape.twist(full.q);
+  f.torsion = shape.torsion_angle(full.q);
   const RigidTransform X_HE_bent = shape.section(full.q, shape.length());
   f.bend = X_HE_bent.translation().head<2>();
   f.X_WE = f.X_WH_proxy * X_HE_bent;

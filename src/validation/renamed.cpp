@@ -49,6 +49,8 @@ const std::map<std::string, std::string>& renamed() {
       {"parts_run", "active"},
       {"parts_left_out", "skipped"},
       {"handle_seen", "proxy_handle"},
+      {"bisection_levels", "impact_bisections"},
+      {"steps_unbounded", "integrations_without_bound"},
   };
   return names;
 }

@@ -22,7 +22,7 @@ void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample&
       break;
     case 1: {
       fork.stiffness = next.per_dof();
-      simulation.change(fork, next.byte() % 2);
+      simulation.change(fork, {}, next.byte() % 2);
       break;
     }
     case 2:
@@ -80,7 +80,7 @@ void calls(std::string_view bytes) {
   settings.contact = static_cast<scene::ContactMode>(next.byte() % 3);
   simulation::Simulation simulation(scene, settings);
   run_a_hand(simulation);
-  motion::PoseSample hand{simulation.newest_sample(), simulation.tool().X_WH};
+  motion::PoseSample hand{simulation.newest_sample_time(), simulation.tool().X_WH};
   for (int i = 0; i < max_calls && !next.over(); ++i) {
     const RigidTransform before = simulation.objects()[0].X_WO;
     const double energy = simulation.tool().elastic_energy;
@@ -88,7 +88,7 @@ void calls(std::string_view bytes) {
       require(simulation.objects()[0].X_WO.matrix() == before.matrix() && simulation.tool().elastic_energy == energy,
               "what is refused changes nothing");
     }
-    simulation.advance(std::min(simulation.newest_sample(), simulation.time() + 0.1));
+    simulation.advance_to(std::min(simulation.newest_sample_time(), simulation.time() + 0.1));
     check_finite(simulation);
   }
 }

@@ -48,7 +48,7 @@ void run_a_hand(simulation::Simulation& simulation) {
     sample.t = 0.05 * i;
     sample.X.translation().z() += 0.01 * i;
     simulation.push_stylus(sample);
-    simulation.advance(sample.t);
+    simulation.advance_to(sample.t);
     check_finite(simulation);
   }
 }

@@ -78,7 +78,7 @@ Hand chosen_hand(Choices& next, double longest_step) {
                                        {0.3, 0.5, 0.6}}};  // dropout
   constexpr std::array<double, 4> steps_per_sample{1.0, 2.0, 5.0, 20.0};
   Hand hand;
-  motion::PoseSample sample{0.0, make_transform(Quaterniond(math::exp_so3({0.0, 1.0, 0.0})), Vector3d::Zero())};
+  motion::PoseSample sample{0.0, make_transform(Vector3d::Zero(), Quaterniond(math::exp_so3({0.0, 1.0, 0.0})))};
   double step = std::min(next.between_powers(-6.0, -1.0), longest_step), interval = step;
   const auto add = [&](const Move& move) {
     hand.samples.push_back(sample);
@@ -169,7 +169,7 @@ void steps(std::string_view bytes) {
   int left = kMaxSteps;
   for (std::size_t k = 0; k + 1 < hand.samples.size() && left > 0; ++k) {
     const bool changes = hand.steps[k] != simulation.settings().dynamics.step;
-    if (changes) simulation.change(simulation::DynamicsChange{{}, hand.steps[k], {}});
+    if (changes) simulation.change({}, simulation::DynamicsChange{{}, hand.steps[k], {}});
     const bool drops_out = hand.drops_out(k);
     const double from = hand.samples[k].t;
     if (drops_out) judge.restart();  // its speed ends suddenly
@@ -178,7 +178,7 @@ void steps(std::string_view bytes) {
       const double t = i == spans ? hand.samples[k + 1].t : from + hand.interval(k) * i / spans;
       const motion::MotionSegment handle = track.segment(0.5 * (simulation.time() + t));
       const long before = test_support::allocations;
-      const simulation::AdvanceReport report = simulation.advance(t);
+      const simulation::AdvanceReport report = simulation.advance_to(t);
       const long allocations = test_support::allocations - before;
       const bool first = i == 1 && (k < 3 || changes);
       require(first || allocations == 0, "a step takes nothing from the heap");

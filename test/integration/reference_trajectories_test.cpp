@@ -108,7 +108,7 @@ std::vector<Row> read_rows(const std::string& path) {
     for (int column = 0; column < 9 && std::getline(in, cell, ','); ++column) {
       if (column != 1) v.push_back(std::stod(cell));
     }
-    if (v.size() == 8) rows.push_back({v[0], make_transform(Quaterniond(v[7], v[4], v[5], v[6]), {v[1], v[2], v[3]})});
+    if (v.size() == 8) rows.push_back({v[0], make_transform({v[1], v[2], v[3]}, Quaterniond(v[7], v[4], v[5], v[6]))});
   }
   return rows;
 }

@@ -47,7 +47,7 @@ Simulation swinging(const std::string& name) {
                  "test", settings);
   Simulation simulation(scene, settings);
   for (int i = 0; i <= 20; ++i) {
-    simulation.push_stylus({0.02 * i, make_transform(Quaterniond::Identity(), {0.05 * i * i / 400.0, 0.0, 0.0})});
+    simulation.push_stylus({0.02 * i, make_transform({0.05 * i * i / 400.0, 0.0, 0.0}, Quaterniond::Identity())});
   }
   return simulation;
 }
@@ -56,19 +56,19 @@ TEST(RegisteredIntegrator, StepsAsOneOfOurs) {
   counting();
   Simulation own = swinging("counting"), rk4 = swinging("rk4");
   Counting::steps = 0;
-  own.advance(0.2);
+  own.advance_to(0.2);
   EXPECT_GE(Counting::steps, 400);
-  rk4.advance(0.2);
+  rk4.advance_to(0.2);
   EXPECT_EQ(validation::name_of(own.tool().integrator), "counting");
   EXPECT_GT((rk4.objects()[0].X_WO.translation() - Vector3d(0.0125, 0.0, 0.2)).norm(), 1e-6) << "nothing moved";
   EXPECT_EQ(own.objects()[0].X_WO.matrix(), rk4.objects()[0].X_WO.matrix());
 
   const SimulationState state = own.save();
-  own.advance(0.4);
+  own.advance_to(0.4);
   const auto ended = own.state_hash();
-  own.change(DynamicsChange{IntegratorKind::exponential, {}, {}});
+  own.change({}, DynamicsChange{IntegratorKind::exponential, {}, {}});
   own.restore(state);
-  own.advance(0.4);
+  own.advance_to(0.4);
   EXPECT_EQ(own.state_hash(), ended) << "its history belongs to the state";
 }
 

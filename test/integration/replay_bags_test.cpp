@@ -201,9 +201,9 @@ TEST_F(Replay, StaticTransformsPlaceTheHandInTheWorld) {
 /// The journal of a live run in which nothing happened, with the hand that the node did not see.
 void add_journal(const std::string& bag_path, const std::string& scene) {
   simulation::Simulation simulation(scene::load_scene(scene), {});
-  const RigidTransform above = make_transform(Quaterniond(0, 1, 0, 0), Vector3d(0.0, 0.0, 0.24));
+  const RigidTransform above = make_transform(Vector3d(0.0, 0.0, 0.24), Quaterniond(0, 1, 0, 0));
   for (const double t : {0.0, 0.1}) simulation.push_stylus({t, above});
-  simulation.advance(0.1);
+  simulation.advance_to(0.1);
   rosbag::Bag bag(bag_path, rosbag::bagmode::Append);
   const auto write = [&](std::uint64_t index, const std::string& state) {
     Change change;
@@ -211,7 +211,7 @@ void add_journal(const std::string& bag_path, const std::string& scene) {
     change.committed = simulation.time();
     change.what = "test";
     change.scene = scene;
-    change.hash_before = simulation::to_hex(simulation.state_hash());
+    change.hash_before = math::to_hex(simulation.state_hash());
     change.state = state;
     bag.write("/manipulation/changes", ros::Time(1500000001), change);
   };

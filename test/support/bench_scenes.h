@@ -10,7 +10,7 @@ namespace spring_workbench {
 
 /// Pose of the handle at `p` with the fork pointing down.
 inline RigidTransform pointing_down(const Vector3d& p, double turned = 0.0) {
-  return make_transform(Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())) * Quaterniond(0.0, 1.0, 0.0, 0.0), p);
+  return make_transform(p, Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())) * Quaterniond(0.0, 1.0, 0.0, 0.0));
 }
 
 /// Pushes samples at 50 Hz of a handle that moves from `a` to `b` with minimum jerk and turns about the vertical.

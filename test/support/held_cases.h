@@ -19,10 +19,10 @@ inline motion::MotionSegment random_hand(double duration, std::mt19937& random) 
     return Vector3d(size * Vector3d(x, y, z));
   };
   motion::PoseSample a, b;
-  a.X = make_transform(Quaterniond(math::exp_so3(vector(1.0))), vector(0.1));
+  a.X = make_transform(vector(0.1), Quaterniond(math::exp_so3(vector(1.0))));
   b.t = duration;
-  b.X = make_transform(Quaterniond(a.X.linear() * math::exp_so3(vector(2.0 * duration))),
-                       a.X.translation() + vector(0.5 * duration));
+  b.X = make_transform(a.X.translation() + vector(0.5 * duration),
+                       Quaterniond(a.X.linear() * math::exp_so3(vector(2.0 * duration))));
   const Vector3d v = vector(0.5), w = vector(2.0);
   return motion::MotionSegment(a, v, w, b, vector(0.5), vector(2.0));
 }
@@ -42,7 +42,7 @@ inline Case random_case(const std::string& shape, double damping_ratio, double d
   body.inertia_O = body.mass * Vector3d(0.0030, 0.0045, 0.0040 + 0.001 * uniform(random)).asDiagonal();
   const Vector3d turn(0.3 * uniform(random), 0.3 * uniform(random), uniform(random));
   const Vector3d grasp(0.03 * uniform(random), 0.03 * uniform(random), -0.05 + 0.02 * uniform(random));
-  body.X_OE = make_transform(Quaterniond(math::exp_so3(turn)), grasp);
+  body.X_OE = make_transform(grasp, Quaterniond(math::exp_so3(turn)));
   dynamics::HeldBody held(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, 9.81);
   const auto factor = [&] { return std::pow(10.0, 0.5 * uniform(random)); };
   rod::ForkSettings fork;

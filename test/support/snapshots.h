@@ -13,6 +13,6 @@ inline live::View view_of(const simulation::Simulation& simulation) {
 }
 
 /// Wants a snapshot of every moment.
-inline bool always(const live::Moment&) { return true; }
+inline bool always(const live::Progress&) { return true; }
 
 }  // namespace spring_workbench

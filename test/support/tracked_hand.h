@@ -24,7 +24,7 @@ inline motion::PoseTrack tracked_hand(double duration, double noise, std::mt1993
   for (double t = 0.0; t < duration + 0.01; t += 0.02) {
     const Vector3d s = (rate * t + phase).array().sin();
     const Vector3d place = width.cwiseProduct(s) + vector(jitter), angle = turn.cwiseProduct(s) + 5.0 * vector(jitter);
-    track.push({t, make_transform(Quaterniond(math::exp_so3(angle)), place)});
+    track.push({t, make_transform(place, Quaterniond(math::exp_so3(angle)))});
   }
   return track;
 }

@@ -47,7 +47,7 @@ class SteppedBody {
   virtual motion::MotionState object() const = 0;
 
   /// Advances the body by `h` [s] under a constant wrench at the centre of mass, in world axes. Returns false, and
-  /// changes nothing, if the result is not finite or not bounded.
+  /// changes nothing, if the result is non-finite or out of range.
   virtual bool advance(double h, const Wrench& contact_W) = 0;
   /// Returns whether the body meets nothing on its straight path between two poses of the object frame.
   using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;

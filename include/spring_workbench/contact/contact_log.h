@@ -26,13 +26,13 @@ class ContactLog {
   void take(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
 
-  /// Mark the start and the end of a call of `advance`; afterwards reported() returns the contacts of that call with
-  /// their phases.
+  /// Mark the start and the end of a call of Simulation::advance_to(); afterwards reported() returns the contacts of
+  /// that call with their phases.
   void begin_call();
   void end_call();
   const std::vector<ContactState>& reported() const { return reported_; }
 
-  /// Between two calls of `advance`.
+  /// Saves or restores the contacts, between two calls of Simulation::advance_to().
   void exchange(math::StateArchive& state);
 
  private:

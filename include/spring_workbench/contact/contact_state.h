@@ -19,8 +19,10 @@ struct ContactState {
   double impulse = 0.0;                        ///< normal impulse in the last step [N·s]
   double force = 0.0;                          ///< mean normal force over that step [N]
   double slip_speed = 0.0;                     ///< speed of `object` along the surface [m/s]
-  ContactPhase phase = ContactPhase::started;  ///< started, persisting or ended in the last call of `advance`
+  ContactPhase phase = ContactPhase::started;  ///< started, persisting or ended in the last call of
+                                               ///< Simulation::advance_to()
 
+  /// Saves or restores all fields.
   void exchange(math::StateArchive& state) { state(object, other, p_W, n_W, depth, impulse, force, slip_speed, phase); }
 };
 

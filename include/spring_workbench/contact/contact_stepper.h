@@ -21,7 +21,7 @@ struct ContactOutcome {
 /// by bisection; the body then continues under contact loads that keep it out of the others, which do not move.
 class ContactStepper {
  public:
-  ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int bisection_levels);
+  ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int impact_bisections);
 
   /// Returns whether nothing movable is near the path of the body between two poses.
   using MotionCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;

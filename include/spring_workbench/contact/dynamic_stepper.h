@@ -22,8 +22,8 @@ class DynamicStepper {
     int substeps = 0;
     int unsolved = 0;        ///< substeps taken although a contact violated its law or a free body's path was not clear
     double time_lost = 0.0;  ///< time [s] during which a held body was blocked, because contact admitted no motion or
-                             ///< because its result was not finite or bounded
-    bool refused = false;    ///< the result of a substep without contact was not finite or bounded
+                             ///< because its result was non-finite or out of range
+    bool refused = false;    ///< the result of a substep without contact was non-finite or out of range
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);

@@ -8,12 +8,12 @@
 
 namespace spring_workbench::dynamics {
 
-/// State of the held body in the strain coordinates that are active.
+/// State of the held body in the strain coordinates that are active (rod::ShapeModel has their units).
 struct StrainState {
-  rod::StrainVector q;      ///< strain
-  rod::StrainVector q_dot;  ///< strain rate [1/s]
+  rod::StrainVector q;      ///< strain coordinates
+  rod::StrainVector q_dot;  ///< their rates, in the unit of each coordinate per second
 
-  void exchange(math::StateArchive& state) { state(q, q_dot); }
+  void exchange(math::StateArchive& state) { state(q, q_dot); }  ///< saves or restores both
 };
 
 /// The strain coordinates of a shape model that take part in an equation of motion. Those of a DOF that is off are
@@ -27,7 +27,7 @@ class ActiveCoordinates {
   int size() const { return size_; }    ///< number of active coordinates
   /// Returns the coordinate of the shape model that is the `i`-th active one.
   int operator[](int i) const { return active_[static_cast<std::size_t>(i)]; }
-  bool returning() const { return returning_ > 0; }
+  bool returning() const { return returning_ > 0; }  ///< whether a DOF that was switched off still returns to zero
   /// Returns whether the coordinates of a DOF, which are switched together, are off, and none returns to zero.
   bool is_off(const rod::CoordinateRange& range) const {
     return !returning() && mode_[static_cast<std::size_t>(range.begin)] == Mode::off;
@@ -67,7 +67,7 @@ class ActiveCoordinates {
     }
   }
 
-  void exchange(math::StateArchive& state);
+  void exchange(math::StateArchive& state);  ///< saves or restores which coordinates are active or return
 
  private:
   enum class Mode { active, off, returning };

@@ -12,19 +12,20 @@ namespace spring_workbench::dynamics {
 /// Pose and velocity of a frame B in a frame A, in the axes of A: at one moment (`S` double) or several.
 template <typename S>
 struct RelativeMotion {
-  math::ThreeByThree<S> R_AB;
-  math::Three<S> p_AB;  ///< [m]
-  math::Three<S> v_AB;  ///< [m/s]
-  math::Three<S> w_AB;  ///< [rad/s]
+  math::ThreeByThree<S> R_AB;  ///< rotation: columns are the axes of B in A
+  math::Three<S> p_AB;         ///< origin of B [m]
+  math::Three<S> v_AB;         ///< velocity of the origin of B [m/s]
+  math::Three<S> w_AB;         ///< angular velocity of B [rad/s]
 };
 
 /// Returns pose and velocity of the object O relative to a frame A.
 RelativeMotion<double> relative_motion(const motion::OwnAxesMotion& A, const motion::MotionState& O);
 
-/// Force [N] and moment about O [N·m] on the object.
+/// Force on the object and its moment about O, in the axes of the frame that the function names.
 template <typename S>
 struct Pull {
-  math::Three<S> force, moment;
+  math::Three<S> force;   ///< [N]
+  math::Three<S> moment;  ///< about the origin of O [N·m]
 };
 
 /// Springs and dampers without mass between a frame A with prescribed motion and the held body, O: the action of a
@@ -33,24 +34,27 @@ class Coupling {
  public:
   /// Stiffness and damping at the object at its present pose: 6 × 6 [linear; angular], symmetric, ≥ 0.
   struct Springs {
-    Matrix6d stiffness = Matrix6d::Zero(), damping = Matrix6d::Zero();
-    double energy = 0.0;      ///< elastic energy of the springs [J]
-    double dissipated = 0.0;  ///< power that the dampers take up [W]
+    Matrix6d stiffness = Matrix6d::Zero();  ///< [N/m, N/rad; N, N·m/rad]
+    Matrix6d damping = Matrix6d::Zero();    ///< in the units of the stiffness times s
+    double energy = 0.0;                    ///< elastic energy of the springs [J]
+    double dissipated = 0.0;                ///< power that the dampers take up [W]
   };
-  /// Identifies the equation of motion that includes this coupling: the time of the grasp [s], and how often the law
-  /// has changed since.
+  /// Identifies the equation of motion that includes this coupling.
   struct Key {
-    double since = 0.0;
-    long version = 0;
+    double since = 0.0;  ///< time of the grasp [s]
+    long version = 0;    ///< number of changes of the law
+    /// Whether two keys identify the same equation.
     bool operator==(const Key& o) const { return since == o.since && version == o.version; }
-    void exchange(math::StateArchive& state) { state(since, version); }
+    void exchange(math::StateArchive& state) { state(since, version); }  ///< saves or restores both
   };
 
   virtual ~Coupling() = default;
-  virtual Key key() const = 0;
-  /// Computes the pull on the object at time `t` [s].
+  virtual Key key() const = 0;  ///< changes whenever the law of the springs or dampers does
+  /// Computes the pull on the object at time `t` [s], in the axes of A. Must not allocate memory, as springs().
   virtual void pull(const double& t, const RelativeMotion<double>& A_O, Pull<double>& pull) const = 0;
+  /// Computes the pulls at several times, one in each lane.
   virtual void pull(const math::Pack& t, const RelativeMotion<math::Pack>& A_O, Pull<math::Pack>& pull) const = 0;
+  /// Returns stiffness, damping and energy at time `t` [s], linearised at this motion of the object, in the axes of A.
   virtual Springs springs(double t, const RelativeMotion<double>& A_O) const = 0;
   /// Begins a step: forgets the starting points of the searches for the pulls.
   virtual void begin_step() const {}
@@ -58,10 +62,10 @@ class Coupling {
 
 /// Coupling with the motion of its frame A.
 struct Attached {
-  const Coupling* coupling = nullptr;
-  const motion::FrameMotion* frame = nullptr;
-  /// Reference handle for `frame`; null: the handle passed to find_relative_motions(). If it is set, A keeps the same
-  /// pose relative to the handle passed to find_relative_motions() as `frame` has relative to this reference handle.
+  const Coupling* coupling = nullptr;          ///< springs and dampers; never null when attached
+  const motion::FrameMotion* frame = nullptr;  ///< motion of A; never null when attached
+  /// Handle that `frame` was given with; null: the current one, which is passed to find_relative_motions(). If set, A
+  /// is carried along: its pose relative to the current handle equals that of `frame` relative to this one.
   const motion::FrameMotion* handle = nullptr;
 };
 
@@ -74,15 +78,18 @@ class Couplings {
   struct RelativeMotions {
     /// Largest distance of the frames from the origin of the world, which scales their rounding errors [m].
     double distance = 0.0;
-    std::size_t count = 0;
-    std::array<RelativeMotion<S>, 3> first;
-    std::vector<RelativeMotion<S>> more;
+    std::size_t count = 0;                   ///< number of frames
+    std::array<RelativeMotion<S>, 3> first;  ///< those of the first three
+    std::vector<RelativeMotion<S>> more;     ///< those of the others
 
+    /// Makes room for so many frames.
     void resize(std::size_t frames) {
       count = frames;
       more.resize(frames - std::min(frames, first.size()));
     }
+    /// Motion of H in the frame of coupling `i` < count.
     RelativeMotion<S>& in_frame(std::size_t i) { return i < first.size() ? first[i] : more[i - first.size()]; }
+    /// Motion of H in the frame of coupling `i` < count.
     const RelativeMotion<S>& in_frame(std::size_t i) const { return const_cast<RelativeMotions*>(this)->in_frame(i); }
   };
 
@@ -91,26 +98,29 @@ class Couplings {
   bool attach(const std::vector<Attached>& couplings);
   /// Detaches all but the first `kept` until attach(). Their keys stay: attaching the same ones again is no change.
   void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }
-  bool empty() const { return attached_.empty(); }
+  bool empty() const { return attached_.empty(); }  ///< whether none is attached
 
+  /// Computes the motions of the handle relative to the frames at time `t` [s].
   void find_relative_motions(const motion::FrameMotion& handle, double t, RelativeMotions<double>& A_H) const;
+  /// Computes the motions of the handle relative to the frames at several times, one in each lane.
   void find_relative_motions(const motion::FrameMotion& handle, const math::Pack& t,
                              RelativeMotions<math::Pack>& A_H) const;
+  /// Returns lane `i` of motions at several times.
   static RelativeMotions<double> lane(const RelativeMotions<math::Pack>& A_H, int i);
   /// Returns the sum of all pulls, in the axes of H, for the motion of the object in H.
   template <typename S>
   Pull<S> pull(const S& t, const RelativeMotions<S>& A_H, const RelativeMotion<S>& H_O) const;
-  /// Sum of all springs, in the axes of H. `power` [W]: what the frames put in, less what the dampers dissipate.
+  /// The sum of all couplings.
   struct Reading {
-    Coupling::Springs springs;
-    Wrench pull_W;  ///< on the object at its centre, world axes
-    double power = 0.0;
+    Coupling::Springs springs;  ///< in the axes of H
+    Wrench pull_W;              ///< on the object at its centre, world axes
+    double power = 0.0;         ///< what the motions of the frames put in, less what the dampers dissipate [W]
   };
-  /// `W_H`: the handle in the world, with its velocities in its own axes.
+  /// Reads the couplings at time `t` [s]. `W_H`: the handle in the world, with its velocities in its own axes.
   Reading read(double t, const RelativeMotions<double>& A_H, const RelativeMotion<double>& H_O,
                const RelativeMotion<double>& W_H) const;
 
-  void exchange(math::StateArchive& state) { state(keys_); }
+  void exchange(math::StateArchive& state) { state(keys_); }  ///< saves or restores the keys
 
  private:
   std::vector<Attached> attached_;

@@ -20,29 +20,30 @@ struct BodyInertia {
   RigidTransform X_OE = RigidTransform::Identity();  ///< the grasp G
 };
 
-/// Motion of the handle at one moment, in the axes of the handle frame H.
+/// Motion of the handle frame H at one moment.
 struct HandleForcing {
-  double t = 0.0;  ///< [s]
-  RigidTransform X_WH = RigidTransform::Identity();
-  Vector3d v_WH_W = Vector3d::Zero();            ///< [m/s], world axes
-  Vector3d angular_velocity = Vector3d::Zero();  ///< [rad/s]
-  Vector3d angular_acceleration = Vector3d::Zero();
-  Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< acceleration of the origin of H, less gravity [m/s²]
-  Couplings::RelativeMotions<double> seen;                ///< motions of H relative to the frames of the couplings
+  double t = 0.0;                                    ///< [s]
+  RigidTransform X_WH = RigidTransform::Identity();  ///< pose of the handle in world
+  Vector3d v_WH_W = Vector3d::Zero();                ///< velocity of the origin, world axes [m/s]
+  Vector3d w_WH_H = Vector3d::Zero();                ///< angular velocity, axes of H [rad/s]
+  Vector3d alpha_WH_H = Vector3d::Zero();            ///< angular acceleration, axes of H [rad/s²]
+  /// Acceleration of the origin less gravity, as an accelerometer would measure it, axes of H [m/s²].
+  Vector3d proper_acceleration_H = Vector3d::Zero();
+  Couplings::RelativeMotions<double> relative_motions;  ///< motions of H relative to the frames of the couplings
 };
 
 /// Motion of the handle without its pose, at one moment (`S` double) or several.
 template <typename S>
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): HeldBody::forcing sets all of it, in each step
 struct ForcingOf {
-  S t;
-  motion::FrameForcing<S> of_H;
-  Couplings::RelativeMotions<S> seen;  ///< motions of H relative to the frames of the couplings
+  S t;                                             ///< [s]
+  motion::FrameForcing<S> of_H;                    ///< velocities and accelerations of the handle, in its own axes
+  Couplings::RelativeMotions<S> relative_motions;  ///< motions of H relative to the frames of the couplings
 };
 
 /// Motion of the handle at several moments, for integrators.
 struct HandleForcings : ForcingOf<math::Pack> {
-  HandleForcing at(int i) const;
+  HandleForcing at(int i) const;  ///< the motion in lane `i`
 };
 
 /// Energy of held body and springs at several moments, with the power that should change it.
@@ -61,10 +62,10 @@ class HeldBody {
   /// `gravity` [m/s²] along −z of world.
   HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInertia& body, double gravity);
 
-  const rod::ShapeModel& shape() const { return *shape_; }
-  const std::shared_ptr<const rod::ShapeModel>& shared_shape() const { return shape_; }
-  const BodyInertia& body() const { return body_; }
-  double gravity() const { return gravity_; }  ///< [m/s²]
+  const rod::ShapeModel& shape() const { return *shape_; }                               ///< the rod
+  const std::shared_ptr<const rod::ShapeModel>& shared_shape() const { return shape_; }  ///< the rod, to be shared
+  const BodyInertia& body() const { return body_; }                                      ///< the body at its tip
+  double gravity() const { return gravity_; }                                            ///< [m/s²]
   /// Increases with every change of the equations: what an integrator has derived from them is valid for one version
   /// only.
   long version() const { return version_; }
@@ -78,13 +79,11 @@ class HeldBody {
   /// Sets the same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, with
   /// the mass matrix M of the unstrained fork. D is recomputed by set_dofs().
   void set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio);
-  /// Sets stiffness, damping ratios and damping law as in `fork`.
-  void set_springs(const rod::ForkSettings& fork);
-  /// Returns the body's moment of inertia about the fork's axis, which passes through the tip [kg·m²].
-  double axial_inertia() const;
-  /// Stiffness [N/m, N/m, N·m/rad] and damping coefficients [the same times s] of the DOFs. With modal damping the
-  /// coefficients are those that would give each DOF this ratio by itself.
-  const rod::PerDof& dof_stiffness() const { return stiffness_; }
+  void set_springs(const rod::ForkSettings& fork);  ///< sets stiffness, damping values and damping law of `fork`
+  double axial_inertia() const;  ///< the body's moment of inertia about the fork's axis, through the tip [kg·m²]
+  const rod::PerDof& dof_stiffness() const { return stiffness_; }  ///< of the DOFs [N/m, N/m, N·m/rad]
+  /// Damping coefficients of the DOFs, in the unit of the stiffness times s. With modal damping, those that would give
+  /// each DOF this ratio by itself.
   const rod::PerDof& dof_damping() const { return damping_; }
 
   /// Switches DOFs on and off. A DOF that is switched off while strained returns to zero, critically damped, from time
@@ -93,42 +92,45 @@ class HeldBody {
   StrainState set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full);
   /// Ends the prescribed returns that have reached zero by time `t` [s]. Returns whether one ended.
   bool drop_finished_returns(double t);
-  /// Returns whether a DOF that was switched off is still returning to zero strain.
-  bool returning() const { return coordinates_.returning(); }
+  bool returning() const { return coordinates_.returning(); }  ///< whether a DOF that was switched off still returns
 
   /// Sets the constant load [N, N·m] on the body at its centre of mass, world axes: contact and measured wrenches.
   void set_load(const Wrench& load_W);
-  const Wrench& load() const { return load_W_; }
-  bool loaded() const { return loaded_; }  ///< whether it is not zero
+  const Wrench& load() const { return load_W_; }  ///< the load that was set
+  bool loaded() const { return loaded_; }         ///< whether the load is not zero
 
   /// Checks whether the object meets nothing on its straight path between two poses. For the step that follows, and for
   /// methods that aim for a pose (`paper`); not part of the state. Empty: nothing can be in the path.
   using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
-  void set_path_check(PathCheck check) { path_check_ = std::move(check); }
-  const PathCheck& path_check() const { return path_check_; }
+  void set_path_check(PathCheck check) { path_check_ = std::move(check); }  ///< sets the check for the next step
+  const PathCheck& path_check() const { return path_check_; }               ///< the check for the next step
 
   /// Attaches further tools that pull on the body from now on, along the motion of the handle that integrators are
   /// given.
   void attach(const std::vector<Attached>& couplings);
   /// Detaches couplings; see Couplings::detach.
   void detach(std::size_t kept) { couplings_.detach(kept); }
-  bool coupled() const { return !couplings_.empty(); }
+  bool coupled() const { return !couplings_.empty(); }  ///< whether further tools are attached
   /// Returns the sum of the couplings for a state of the body.
   Couplings::Reading read_couplings(const HandleForcing& handle, const StrainState& state) const;
 
-  int size() const { return coordinates_.size(); }  ///< number of active coordinates
-  const ActiveCoordinates& coordinates() const { return coordinates_; }
-  StrainState zero_state() const;
+  int size() const { return coordinates_.size(); }                                  ///< number of active coordinates
+  const ActiveCoordinates& coordinates() const { return coordinates_; }             ///< which coordinates are active
+  StrainState zero_state() const;                                                   ///< no strain, at rest
   rod::StrainVector units() const { return coordinates_.gather(shape_->units()); }  ///< of the active coordinates
   rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
   rod::StrainMatrix damping() const;    ///< D, active coordinates
-  /// K and D including the springs and dampers of the couplings at the strain `q`.
+  /// K and D including the springs and dampers of the couplings.
   struct Springs {
-    rod::StrainMatrix K, D;
+    rod::StrainMatrix K;  ///< stiffness, active coordinates
+    rod::StrainMatrix D;  ///< damping, active coordinates
   };
+  /// Returns K and D, with the couplings linearised at the strain `q`.
   Springs springs(const HandleForcing& handle, const rod::StrainVector& q) const;
 
+  /// Returns the motion of the handle at time `t` [s], and relative to the frames of the couplings.
   HandleForcing forcing(const motion::FrameMotion& handle, double t) const;
+  /// Returns the motions of the handle at several times, one in each lane.
   HandleForcings forcing(const motion::FrameMotion& handle, const math::Pack& t) const;
   /// Returns q̈ of the active coordinates.
   rod::StrainVector acceleration(const HandleForcing& handle, const rod::StrainVector& q,
@@ -144,10 +146,8 @@ class HeldBody {
   /// Returns energy and power at several moments: size() packs each. Without the energy of a DOF that returns to zero
   /// strain.
   EnergyBalance energy_balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot) const;
-  /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a DOF returns).
-  rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;
-  /// ShapeModel::rechart of the active coordinates; not while a DOF returns to zero strain.
-  bool rechart(StrainState& state) const;
+  rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;  ///< M(q) of the active coordinates
+  bool rechart(StrainState& state) const;  ///< ShapeModel::rechart, active coordinates; not while a DOF returns
   /// Active state at time `t` in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const { return coordinates_.full_state(t, state); }
 
@@ -160,10 +160,9 @@ class HeldBody {
   /// The strain rate that is closest, in kinetic energy, to the object's twist (world axes) at the strain `q`.
   rod::StrainVector project_twist(const HandleForcing& handle, const rod::StrainVector& q, const Twist& V_WO_W) const;
 
-  double elastic_energy(double t, const StrainState& state) const;  ///< [J]
-  /// ∂U/∂q of the active coordinates at time `t`.
-  rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;
-  double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;  ///< [J]
+  double elastic_energy(double t, const StrainState& state) const;              ///< [J]
+  rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;  ///< ∂U/∂q of the active coordinates
+  double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;       ///< [J]
 
   /// Exchanges springs, DOFs, load and versions; shape, body and gravity must be the same. What an integrator has
   /// derived from the equations is valid only for these versions, so its history is saved together with them.

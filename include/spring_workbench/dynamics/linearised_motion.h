@@ -14,7 +14,7 @@ struct LinearisedMotion {
   /// `moment`: the same moment as `handle`, in every lane.
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const HandleForcings& moment,
                    const StrainState& state, const rod::StrainVector& q_ddot);
-  /// With springs and dampers alone.
+  /// Takes springs and dampers into account, but no load, gravity or gyroscopic term.
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
   /// Size of a change of the rates, all coordinates together: the root of twice its kinetic energy.
   double size(const rod::StrainVector& q_dot) const { return std::sqrt(q_dot.dot(M * q_dot)); }

@@ -34,8 +34,8 @@ struct TriangleMesh {
     return vertices[static_cast<std::size_t>(triangle[k])];
   }
 };
-using MeshPtr = std::shared_ptr<const TriangleMesh>;
-using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;
+using MeshPtr = std::shared_ptr<const TriangleMesh>;            ///< a mesh, shared by all its users; never null
+using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;  ///< one of the shapes
 
 /// A part of a body, placed in the body's object frame O (axes of the URDF link, origin at the centre of mass).
 struct Shape {

@@ -16,25 +16,26 @@ namespace spring_workbench::hand_input {
 
 /// Input that a feed gave to its simulation. The same inputs in the same order, each after the simulation has reached
 /// the same time, give a bit-identical future.
-struct Accepted {
+struct AcceptedInput {
+  /// What kind of input it is.
   enum class Kind {
-    pose,         ///< pose of the stylus at time `t`, after filtering
-    button_down,  ///< the grasp button went down at time `t`
-    button_up,
-    next_tool,  ///< the second button went down at time `t`
-    lost,       ///< the hand was lost and releases its object at time `t`
-    rest,       ///< no input: all hands are at rest until time `t`
-    clutch_on,  ///< the clutch button went down at time `t`
-    clutch_off,
-    external_wrench,
+    pose,             ///< pose of the stylus at time `t`, after filtering
+    button_down,      ///< the grasp button went down at time `t`
+    button_up,        ///< the grasp button went up at time `t`
+    next_tool,        ///< the second button went down at time `t`
+    lost,             ///< the hand was lost and releases its object at time `t`
+    rest,             ///< no input: all hands are at rest until time `t`
+    clutch_on,        ///< the clutch button went down at time `t`
+    clutch_off,       ///< the clutch button went up at time `t`
+    external_wrench,  ///< a machine's force sensor measured `wrench` at time `t`
   };
-  static Kind kind_of(motion::ButtonEdge press);
+  static Kind kind_of(motion::ButtonEdge edge);  ///< the kind that stands for a button edge
   /// Returns the edge of a button that `kind` stands for; none if it stands for something else.
-  static std::optional<motion::ButtonEdge> press_of(Kind kind);
+  static std::optional<motion::ButtonEdge> edge_of(Kind kind);
 
-  Kind kind = Kind::rest;
-  std::size_t hand = 0;
-  double t = 0.0;                                               ///< [s]
+  Kind kind = Kind::rest;                                       ///< what kind of input it is
+  std::size_t hand = 0;                                         ///< the hand, from 0
+  double t = 0.0;                                               ///< time of the input [s]
   RigidTransform X_WS = RigidTransform::Identity();             ///< pose of the stylus in world, for `pose`
   motion::ExternalWrench wrench;                                ///< for `external_wrench`, measured at time `t`
   double committed = -std::numeric_limits<double>::infinity();  ///< simulated time at which the input was given [s];
@@ -63,12 +64,14 @@ class Feed {
   /// bit-identically if smoothing and dead band are off and the hand was not lost. `quaternion_norm`: length of the
   /// quaternion as it was received.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0, double quaternion_norm = 1.0);
-  /// Adds an edge of a button at time `t` [s]; see Simulation.
-  void push_edge(double t, motion::ButtonEdge press, std::size_t hand = 0);
+  /// Adds a button edge at time `t` [s]; see Simulation::push_edge().
+  void push_edge(double t, motion::ButtonEdge edge, std::size_t hand = 0);
+  /// Presses or releases the grasp button at time `t` [s].
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_edge(t, pressed ? motion::ButtonEdge::grasp : motion::ButtonEdge::release, hand);
   }
-  /// Adds what a machine's force sensor measured; see Simulation. Time never waits for such a sample.
+  /// Adds what a machine's force sensor measured; see Simulation::push_external_wrench(). Time never waits for such a
+  /// sample.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Reports that the buttons of a hand are known up to `t`, whether or not one of them changed.
   void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
@@ -89,7 +92,7 @@ class Feed {
   /// Returns the time since the newest sample of any hand arrived [s].
   double time_since_arrival(const LocalTime& now) const;
   /// Sets the function that is called with every input of the simulation; empty: nothing is recorded.
-  void record(std::function<void(const Accepted&)> record) { record_ = std::move(record); }
+  void record(std::function<void(const AcceptedInput&)> record) { record_ = std::move(record); }
 
   /// Forgets the hands' samples after the simulation was reset or changed: the next sample counts as the first. Gates
   /// and counts are kept.
@@ -97,8 +100,8 @@ class Feed {
   /// Forgets the samples of one hand in its gate, after a time jump; keeps the counts.
   void restart_gate(std::size_t hand);
 
-  const GateCounts& gate_counts(std::size_t hand) const;
-  const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const;
+  const GateCounts& gate_counts(std::size_t hand) const;                    ///< results of a hand's outlier gate
+  const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const;  ///< losses and re-acquisitions of a hand
   /// Returns how often the tracker of a hand was moved in the world (`X_WP` changed), after which the hand is
   /// re-acquired.
   std::size_t tracker_moves(std::size_t hand) const;
@@ -108,12 +111,12 @@ class Feed {
   void follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP, const LocalTime& arrival,
               std::size_t hand);
 
-  void note(Accepted::Kind kind, std::size_t hand, double t,
+  void note(AcceptedInput::Kind kind, std::size_t hand, double t,
             const RigidTransform& X_WS = RigidTransform::Identity()) const;
 
   simulation::Simulation& simulation_;
   std::vector<Hand> hands_;
-  std::function<void(const Accepted&)> record_;
+  std::function<void(const AcceptedInput&)> record_;
   bool has_sample_ = false;
   bool began_ = false;  ///< the simulation has been advanced since the start
 };

@@ -24,7 +24,7 @@ struct ReacquisitionCounts {
 /// up smoothly over 0.2 s. The followed hand is therefore faster than the tracked one by at most these two speeds.
 class Reacquisition {
  public:
-  explicit Reacquisition(const InputSettings& settings) : settings_(settings) {}
+  explicit Reacquisition(const InputSettings& settings) : settings_(settings) {}  ///< copies the settings
 
   /// Returns the samples to follow after this one, in order: none if it is not later than `simulated_until` [s] (it is
   /// late); two if the hand was held beyond the last one. `relocation`: see GateResult.
@@ -32,7 +32,7 @@ class Reacquisition {
   /// Returns the next time up to `until` [s], if any, at which the held object is released because the hand was lost.
   /// Each is returned once, and none if `on_loss` is freeze.
   std::optional<double> take_release(double until);
-  const ReacquisitionCounts& counts() const { return counts_; }
+  const ReacquisitionCounts& counts() const { return counts_; }  ///< counts since the start
   /// Forgets the samples of the hand; keeps the counts.
   void restart();
 

@@ -18,16 +18,16 @@ struct RawSample {
 
 /// Result of the gate for a sample.
 enum class GateResult {
-  accepted,    ///< continues from the sample before
-  relocation,  ///< accepted after a jump or a dropout, or as the first sample
-  not_finite,
+  accepted,        ///< continues from the sample before
+  relocation,      ///< accepted after a jump or a dropout, or as the first sample
+  not_finite,      ///< a number is NaN or infinite
   bad_quaternion,  ///< far from unit length
-  too_far,
-  not_later,  ///< repeated or backward stamp
-  too_close,  ///< stamp right after the last one, as in a burst, too close for a meaningful velocity
-  too_fast,
-  turns_too_fast,
-  out_of_view,
+  too_far,         ///< beyond `max_distance` from the origin of the tracker's frame
+  not_later,       ///< repeated or backward stamp
+  too_close,       ///< stamp right after the last one, as in a burst, too close for a meaningful velocity
+  too_fast,        ///< beyond `max_speed` from the last accepted sample
+  turns_too_fast,  ///< beyond `max_turn_rate` from the last accepted sample
+  out_of_view,     ///< a jump to the identity, which a tracker sends for a sensor that it does not see
 };
 /// Returns whether a sample with this result may be used.
 inline bool usable(GateResult result) { return result == GateResult::accepted || result == GateResult::relocation; }
@@ -42,12 +42,12 @@ GateResult check_pose(const RawSample& sample, const InputSettings& settings);
 
 /// Counts of the results of one gate.
 struct GateCounts {
-  std::size_t accepted = 0;
-  std::size_t relocations = 0;  ///< jumps that were accepted
-  std::size_t dropouts = 0;     ///< gaps between accepted samples longer than `dropout_after`
-  double newest_dropout = 0.0;  ///< length of the newest of them [s]
-  std::size_t sign_flips = 0;   ///< neighbours whose quaternions have opposite signs; harmless
-  std::map<GateResult, std::size_t> rejected;
+  std::size_t accepted = 0;                    ///< samples that were accepted
+  std::size_t relocations = 0;                 ///< jumps that were accepted
+  std::size_t dropouts = 0;                    ///< gaps between accepted samples longer than `dropout_after`
+  double newest_dropout = 0.0;                 ///< length of the newest of them [s]
+  std::size_t sign_flips = 0;                  ///< neighbours whose quaternions have opposite signs; harmless
+  std::map<GateResult, std::size_t> rejected;  ///< number of rejected samples by result
 };
 
 /// Returns a complaint about a hand that does not move because most of its samples come farther apart than
@@ -63,8 +63,8 @@ class SampleGate {
   /// `dropout_after` [s], > 0: a longer gap is a dropout, and the next sample a relocation.
   SampleGate(const InputSettings& settings, double dropout_after);
 
-  GateResult offer(const RawSample& sample);
-  const GateCounts& counts() const { return counts_; }
+  GateResult offer(const RawSample& sample);            ///< checks a sample after all that were offered before it
+  const GateCounts& counts() const { return counts_; }  ///< counts since the start
   /// Forgets the samples, after a time jump; keeps the counts.
   void restart();
 

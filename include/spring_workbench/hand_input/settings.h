@@ -11,7 +11,7 @@ namespace spring_workbench::hand_input {
 
 /// What happens to a held object when its hand is lost: it stays where the hand was last, or is released.
 enum class OnLoss { freeze, release };
-const std::vector<std::string>& names_of(OnLoss);
+const std::vector<std::string>& names_of(OnLoss);  ///< their words in settings
 
 /// Rules by which samples of a tracker are accepted, filtered and followed. Keys `input.*`.
 struct InputSettings {
@@ -19,14 +19,14 @@ struct InputSettings {
   double max_distance = 1000.0;       ///< `max_distance` [m] from the origin of the tracker's frame
   double max_speed = 10.0;            ///< `max_speed` [m/s] between samples
   double max_turn_rate = 50.0;        ///< `max_turn_rate` [rad/s] between samples
-  int accept_after = 5;               ///< `accept_after`: consecutive samples that make a relocation
+  int accept_after = 5;               ///< `accept_after`: number of consecutive samples that make a relocation
   double origin_radius = 1e-3;      ///< `origin_radius` [m]: a jump to the identity this close is "out of view"; 0: off
   double origin_angle = 0.02;       ///< `origin_angle` [rad]: largest rotation of such a jump from the identity
   double min_cutoff = 0.0;          ///< `smoothing.min_cutoff` [Hz] of the jitter filter at rest; 0: off
   double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: increase of the cut-off with the speed
   double beta_angle = 1.0;          ///< `smoothing.beta_angle` [Hz per rad/s]
   double dead_band_distance = 0.0;  ///< `dead_band.distance` [m]: a hand that moves by less rests; 0: off
-  double dead_band_angle = 0.0;     ///< `dead_band.angle` [rad]: the same of turning
+  double dead_band_angle = 0.0;     ///< `dead_band.angle` [rad]: a hand that turns by less rests; 0: off
   OnLoss on_loss = OnLoss::freeze;  ///< `on_loss`: after `loss_timeout` without samples
   double loss_timeout = 2.0;        ///< `loss_timeout` [s]
   double reacquisition_speed = 0.5;  ///< `reacquisition_speed` [m/s]: largest speed of catching up, added to the hand's
@@ -35,8 +35,11 @@ struct InputSettings {
 
 /// Description of one key; see `input_descriptions`.
 struct InputDescription {
-  std::string key;  ///< without "input."
-  std::string unit, allowed, default_value, meaning;
+  std::string key;            ///< without "input."
+  std::string unit;           ///< SI unit, or "–"
+  std::string allowed;        ///< e.g. "> 0"
+  std::string default_value;  ///< as text
+  std::string meaning;        ///< what it does, in one line
 };
 /// Returns the descriptions of all keys, which a test compares with `doc/reference.md`.
 std::vector<InputDescription> input_descriptions();

@@ -33,7 +33,7 @@ struct Entry {
   double committed = 0.0;  ///< simulated time reached before it [s]; −infinity before the simulation began
   std::optional<std::int64_t>
       stamp;  ///< stamp of its time, by the clock at that moment [ns]; none before the first sample
-  std::variant<hand_input::Accepted, Change> what;
+  std::variant<hand_input::AcceptedInput, Change> what;
 };
 
 /// Divides the entries of a recording, each topic in the order of arrival, among the processes that published them, one
@@ -41,9 +41,9 @@ struct Entry {
 /// where the index of a topic goes back.
 std::vector<std::vector<Entry>> lives_of(std::vector<Entry> entries);
 
-/// Sorts the entries of one life by their index. Removes those from before its first input if entries are missing
-/// between them: inputs and changes are published on two topics, and a recorder that starts beside another listener
-/// may be connected to that of the changes first. The state that is noted once it is connected to both follows.
+/// Sorts the entries of one life by their index. Removes those before its first input if some are missing between them:
+/// inputs and changes are published on two topics, and a recorder may be connected to the changes first. Once it is
+/// connected to both, `manipulation` notes the whole state, from which the rest can be repeated.
 std::vector<Entry> from_first_complete(std::vector<Entry> entries);
 
 /// Counts of the changes of a journal after the first one.
@@ -56,7 +56,7 @@ struct ReplayedChanges {
 /// Numbers entries and stores them until they are taken.
 class Journal {
  public:
-  void note(double committed, std::optional<std::int64_t> stamp, std::variant<hand_input::Accepted, Change> what) {
+  void note(double committed, std::optional<std::int64_t> stamp, std::variant<hand_input::AcceptedInput, Change> what) {
     entries_.push_back({next_++, committed, stamp, std::move(what)});
   }
   /// Returns the entries since the last call.
@@ -90,7 +90,7 @@ class Replayer {
 
  private:
   void advance_to_entry(double t, const AtStop& at_stop);
-  void apply(const hand_input::Accepted& accepted);
+  void apply(const hand_input::AcceptedInput& accepted);
   void apply(const Change& change);
   bool repeat(const Change& change);
 

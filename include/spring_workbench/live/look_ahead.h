@@ -77,7 +77,7 @@ class LookAhead {
     std::vector<Held> of(const simulation::Simulation& simulation);
 
    private:
-    bodies::Changes::Moment at_;
+    bodies::Changes::Revision at_;
     std::set<std::size_t> held_;
   };
 

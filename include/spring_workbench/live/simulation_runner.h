@@ -27,7 +27,7 @@
 namespace spring_workbench::live {
 
 /// Progress of the committed simulation.
-struct Moment {
+struct Progress {
   bool has_sample = false;   ///< a sample has arrived since the start
   bool began = false;        ///< the simulation has reached the first sample
   std::int64_t stamp = 0;    ///< stamp of the simulated time reached [ns]; meaningless before `began`
@@ -36,7 +36,7 @@ struct Moment {
 
 /// A simulation at one moment.
 struct Snapshot {
-  Moment at;
+  Progress at;
   View view;
 };
 
@@ -52,7 +52,7 @@ struct Shown : Snapshot {
 };
 
 /// Decides whether a snapshot of this moment is needed.
-using Wanted = std::function<bool(const Moment&)>;
+using Wanted = std::function<bool(const Progress&)>;
 
 /// Report of one cycle of the physics loop.
 struct CycleReport {
@@ -183,7 +183,9 @@ class SimulationRunner {
   void apply(HandInput& input, const ButtonsKnown& known);
   void apply(HandInput& input, const StylusWrench& wrench) { push(input, wrench, times_.time_of_stamp(wrench.stamp)); }
   void push(HandInput& input, StylusWrench wrench, double t);
-  Moment moment_at(double t, bool began) const { return {feed_.has_sample(), began, times_.stamp_of(t), revision_}; }
+  Progress progress_at(double t, bool began) const {
+    return {feed_.has_sample(), began, times_.stamp_of(t), revision_};
+  }
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double time_of(const HandInput& input, double t);
   void feed(HandInput& input, const StylusEvent& event);

@@ -30,7 +30,7 @@ struct RejectedPose {
 /// Edge of a button at time `t` [s].
 struct StylusButton {
   double t = 0.0;
-  motion::ButtonEdge press = motion::ButtonEdge::grasp;
+  motion::ButtonEdge edge = motion::ButtonEdge::grasp;
 };
 /// A button message with stamp `t` [s] has arrived: the buttons are known up to this time, whether or not one changed.
 struct ButtonsKnown {

@@ -15,11 +15,11 @@ Places put_to_rest(simulation::Simulation& simulation, double now);
 /// Undo history: the states before the last 20 edits and resets.
 class Undo {
  public:
-  /// The simulation in which perform() continues, if it needs another one (Simulation::edited). Takes long, but another
-  /// thread may advance `simulation` meanwhile. Throws as perform().
+  /// First phase of perform(): returns the simulation in which it continues, if it needs another one. Slow, but another
+  /// thread may advance `simulation` meanwhile (Simulation::prepare_edit). Throws what perform() throws.
   std::optional<simulation::Simulation> prepare(const Command& command, const simulation::Simulation& simulation) const;
   /// Makes a change like live::perform(), or an edit, and saves the state before an edit or a reset. Kind::undo goes
-  /// back to the last one (Simulation::go_back_to); the report's message names the change that was undone. Throws
+  /// back to the last one (Simulation::rewind_to); the report's message names the change that was undone. Throws
   /// InputError if there is nothing to undo. `next`: from prepare(); afterwards it is the simulation as it was before.
   ChangeReport perform(const Command& command, simulation::Simulation& simulation,
                        std::optional<simulation::Simulation>& next);

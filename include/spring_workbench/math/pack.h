@@ -6,6 +6,7 @@
 
 // Arithmetic on several numbers at once: code written once for a scalar `S` works for `double` and for `Pack`.
 
+/// For functions on packs: inlined into their caller, whatever processor it is compiled for.
 #define SPRING_WORKBENCH_INLINE inline __attribute__((always_inline))
 
 /// Compiles a function twice: for any processor, and for those with AVX and FMA (a pack in one register, fused
@@ -23,18 +24,24 @@ namespace spring_workbench::math {
 
 /// Four numbers in one register, or in two.
 using Pack = double __attribute__((vector_size(32)));
-constexpr int pack_size = 4;
+constexpr int pack_size = 4;  ///< number of lanes of a Pack
 
+/// Makes a pack of these numbers.
 SPRING_WORKBENCH_INLINE Pack pack(const std::array<double, 4>& x) { return Pack{x[0], x[1], x[2], x[3]}; }
 
-/// Lane `i` of a pack, or the number itself.
+/// Lane `i` of a pack.
 SPRING_WORKBENCH_INLINE double lane(const Pack& p, int i) { return p[i]; }
+/// The only lane of a number: the number itself.
 SPRING_WORKBENCH_INLINE double lane(double x, int) { return x; }
+/// Number of lanes of `S`: 4 for Pack, 1 for double.
 template <typename S>
 constexpr int lanes = sizeof(S) / sizeof(double);
 
+/// Sets lane `i` of a pack.
 SPRING_WORKBENCH_INLINE void set_lane(Pack& p, int i, double x) { p[i] = x; }
+/// Sets the only lane of a number.
 SPRING_WORKBENCH_INLINE void set_lane(double& p, int, double x) { p = x; }
+/// The largest lane.
 template <typename S>
 SPRING_WORKBENCH_INLINE double largest(const S& p) {
   double result = lane(p, 0);
@@ -42,24 +49,32 @@ SPRING_WORKBENCH_INLINE double largest(const S& p) {
   return result;
 }
 
+/// The sum of all lanes, in an order that is the same on every processor.
 SPRING_WORKBENCH_INLINE double sum(const Pack& p) { return (p[0] + p[1]) + (p[2] + p[3]); }
 
-/// Three coordinates.
+/// A vector of three coordinates.
 template <typename S>
 struct Three {
-  S x, y, z;
+  S x;  ///< coordinate along x
+  S y;  ///< coordinate along y
+  S z;  ///< coordinate along z
 };
+/// The zero vector.
 template <typename S>
 SPRING_WORKBENCH_INLINE Three<S> none() {
   return {S{}, S{}, S{}};
 }
+/// Converts a vector from Eigen.
 SPRING_WORKBENCH_INLINE Three<double> three(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+/// Converts a vector to Eigen.
 SPRING_WORKBENCH_INLINE Vector3d vector(const Three<double>& v) { return {v.x, v.y, v.z}; }
+/// Converts lane `i` of a vector to Eigen.
 template <typename S>
 SPRING_WORKBENCH_INLINE Vector3d vector(const Three<S>& v, int i) {
   return {lane(v.x, i), lane(v.y, i), lane(v.z, i)};
 }
 
+/// Sets lane `i` of a vector.
 template <typename S>
 SPRING_WORKBENCH_INLINE void set_lane(Three<S>& p, int i, const Three<double>& v) {
   set_lane(p.x, i, v.x);
@@ -67,14 +82,17 @@ SPRING_WORKBENCH_INLINE void set_lane(Three<S>& p, int i, const Three<double>& v
   set_lane(p.z, i, v.z);
 }
 
+/// Sum, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto operator+(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x + b.x)> {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
+/// Difference, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto operator-(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x - b.x)> {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+/// Adds `b` to `a`, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE Three<S>& operator+=(Three<S>& a, const Three<T>& b) {
   a.x += b.x;
@@ -82,14 +100,17 @@ SPRING_WORKBENCH_INLINE Three<S>& operator+=(Three<S>& a, const Three<T>& b) {
   a.z += b.z;
   return a;
 }
+/// Product with a number, lane by lane.
 template <typename T, typename S>
 SPRING_WORKBENCH_INLINE auto operator*(const T& f, const Three<S>& a) -> Three<decltype(f * a.x)> {
   return {f * a.x, f * a.y, f * a.z};
 }
+/// Scalar product, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto dot(const Three<S>& a, const Three<T>& b) -> decltype(a.x * b.x) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// Cross product, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto cross(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x * b.x)> {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -98,17 +119,22 @@ SPRING_WORKBENCH_INLINE auto cross(const Three<S>& a, const Three<T>& b) -> Thre
 /// A 3 × 3 matrix by its columns.
 template <typename S>
 struct ThreeByThree {
-  Three<S> x, y, z;
+  Three<S> x;  ///< first column
+  Three<S> y;  ///< second column
+  Three<S> z;  ///< third column
 };
+/// Converts a matrix from Eigen.
 SPRING_WORKBENCH_INLINE ThreeByThree<double> three_by_three(const Matrix3d& m) {
   return {three(m.col(0)), three(m.col(1)), three(m.col(2))};
 }
+/// Converts lane `i` of a matrix to Eigen.
 template <typename S>
 SPRING_WORKBENCH_INLINE Matrix3d matrix(const ThreeByThree<S>& m, int i) {
   Matrix3d r;
   r << vector(m.x, i), vector(m.y, i), vector(m.z, i);
   return r;
 }
+/// Sets lane `i` of a matrix.
 template <typename S>
 SPRING_WORKBENCH_INLINE void set_lane(ThreeByThree<S>& p, int i, const ThreeByThree<double>& m) {
   set_lane(p.x, i, m.x);
@@ -116,6 +142,7 @@ SPRING_WORKBENCH_INLINE void set_lane(ThreeByThree<S>& p, int i, const ThreeByTh
   set_lane(p.z, i, m.z);
 }
 
+/// Product of matrix and vector, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
   return v.x * m.x + v.y * m.y + v.z * m.z;
@@ -125,6 +152,7 @@ template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto transposed(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
   return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
 }
+/// Product of matrices, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& a, const ThreeByThree<T>& b)
     -> ThreeByThree<decltype(a.x.x * b.x.x)> {

@@ -8,13 +8,16 @@ namespace spring_workbench {
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Vector6d = Eigen::Matrix<double, 6, 1>;  ///< [linear; angular] or [force; moment]
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
+/// A twist [linear; angular] or wrench [force; moment]: linear first, as in ROS and Pinocchio (Featherstone and Drake
+/// put the angular part first).
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;  ///< maps between such vectors
 
 /// Pose of a frame B in a frame A, written `X_AB`: `p_A = X_AB * p_B`. Lengths in m.
 using RigidTransform = Eigen::Isometry3d;
 
-/// Velocity of a frame: `linear` [m/s] of its origin and `angular` [rad/s]; the name says in which axes, `V_WO_W`.
+/// Velocity of a frame: `linear` [m/s] of its origin and `angular` [rad/s]. The name says in which axes: `V_WO_W` is
+/// that of O in W, in the axes of W. (`twist` in a setting of the fork is an angle of torsion instead.)
 struct Twist {
   Vector3d linear = Vector3d::Zero();   ///< velocity of the origin [m/s]
   Vector3d angular = Vector3d::Zero();  ///< angular velocity [rad/s]
@@ -26,8 +29,9 @@ struct Wrench {
   Vector3d moment = Vector3d::Zero();  ///< about the origin [N·m]
 };
 
-/// The pose with rotation `q` (need not be of unit length; must not be zero) and origin `p` [m].
-inline RigidTransform make_transform(const Quaterniond& q, const Vector3d& p) {
+/// The pose with origin `p` [m] and rotation `q`, which need not be of unit length but must not be zero. The
+/// constructor of Quaterniond takes w, x, y, z; files, messages and Python have x, y, z, w.
+inline RigidTransform make_transform(const Vector3d& p, const Quaterniond& q) {
   RigidTransform X = RigidTransform::Identity();
   X.linear() = q.normalized().toRotationMatrix();
   X.translation() = p;

@@ -6,8 +6,8 @@
 
 namespace spring_workbench::math {
 
-/// QR decomposition of a small regular matrix (modified Gram–Schmidt, column by column), which solves systems with it
-/// and with its transpose. One matrix (`S` double) or, with packs, several.
+/// QR decomposition of a small nonsingular matrix (modified Gram–Schmidt, column by column), which solves systems with
+/// it and with its transpose. One matrix (`S` double) or, with packs, several.
 template <int n, typename S>
 class SquareSystem {
  public:

@@ -22,16 +22,17 @@ namespace spring_workbench::math {
 /// archive contains only numbers: no pointer, no padding, no capacity.
 class StateArchive {
  public:
-  using Words = std::vector<std::uint64_t>;
+  using Words = std::vector<std::uint64_t>;  ///< the bits of numbers: a double, integer or enumerator each
 
   /// Makes an archive that reads the numbers of a state, about as many as `expected`.
   explicit StateArchive(std::size_t expected = 0) { taken_.reserve(expected); }
   /// Makes an archive that sets the numbers of a state from `words`, which must outlive it.
   explicit StateArchive(const Words& words) : given_(&words) {}
 
-  bool sets() const { return given_ != nullptr; }
-  const Words& taken() const& { return taken_; }
-  Words taken() && { return std::move(taken_); }
+  bool sets() const { return given_ != nullptr; }  ///< whether it sets the state; otherwise it reads it
+  const Words& taken() const& { return taken_; }   ///< the numbers that were read
+  Words taken() && { return std::move(taken_); }   ///< the numbers that were read, moved out
+  /// Whether no word is left to set the state from.
   bool at_end() const { return given_ == nullptr || next_ == given_->size(); }
 
   /// Reads or sets the next values of the state. Throws std::out_of_range if there are too few words.
@@ -167,5 +168,10 @@ inline std::uint64_t hash(const StateArchive::Words& words) {
   }
   return h;
 }
+
+/// A word, or a hash, as 16 hexadecimal digits.
+std::string to_hex(std::uint64_t word);
+/// The words whose digits by to_hex(), one word after the other, are `text`; nothing if it is not such a text.
+std::optional<StateArchive::Words> words_of_hex(const std::string& text);
 
 }  // namespace spring_workbench::math

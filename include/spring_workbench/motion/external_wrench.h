@@ -21,7 +21,7 @@ class WrenchTrack {
   /// sample has timed out.
   bool follow(double now, double same_time);
   /// The next time after `now` at which the wrench changes [s]; infinity if there is none.
-  double next_edge(double now, double same_time) const;
+  double next_change_time(double now, double same_time) const;
   /// The wrench at the time of the last follow(); none if it is zero.
   const std::optional<ExternalWrench>& present() const { return present_; }
   void clear();

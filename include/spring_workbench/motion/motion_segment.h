@@ -18,27 +18,27 @@ struct MotionState {
 /// Motion of a frame B at one moment, with angular velocity and acceleration in its own axes.
 struct OwnAxesMotion {
   RigidTransform X = RigidTransform::Identity();  ///< X_WB
-  Vector3d v_W = Vector3d::Zero();                ///< [m/s]
-  Vector3d a_W = Vector3d::Zero();                ///< [m/s²]
-  Vector3d w_B = Vector3d::Zero();                ///< [rad/s]
-  Vector3d alpha_B = Vector3d::Zero();            ///< [rad/s²]
+  Vector3d v_W = Vector3d::Zero();                ///< velocity of the origin, world axes [m/s]
+  Vector3d a_W = Vector3d::Zero();                ///< acceleration of the origin, world axes [m/s²]
+  Vector3d w_B = Vector3d::Zero();                ///< angular velocity, axes of B [rad/s]
+  Vector3d alpha_B = Vector3d::Zero();            ///< angular acceleration, axes of B [rad/s²]
 };
 
 /// Velocity and acceleration of a frame B in its own axes, at one time or at several (`S` a pack).
 template <typename S>
 struct FrameForcing {
-  math::ThreeByThree<S> R_WB;
-  math::Three<S> v_B;      ///< velocity of the origin [m/s]
-  math::Three<S> w_B;      ///< [rad/s]
-  math::Three<S> alpha_B;  ///< [rad/s²]
-  math::Three<S> a_B;      ///< acceleration of the origin, less gravity [m/s²]
+  math::ThreeByThree<S> R_WB;  ///< rotation: columns are the axes of B in W
+  math::Three<S> v_B;          ///< velocity of the origin [m/s]
+  math::Three<S> w_B;          ///< angular velocity [rad/s]
+  math::Three<S> alpha_B;      ///< angular acceleration [rad/s²]
+  math::Three<S> a_B;          ///< proper acceleration: that of the origin, less gravity [m/s²]
 };
 
 /// Motion of a frame, twice differentiable over the requested times.
 class FrameMotion {
  public:
-  virtual OwnAxesMotion in_own_axes(double t) const = 0;
-  /// At the times `t` [s], with `gravity` [m/s²] along −z of world.
+  virtual OwnAxesMotion in_own_axes(double t) const = 0;  ///< the motion at time `t` [s]
+  /// The motion at the times `t` [s], with `gravity` [m/s²] along −z of world.
   virtual FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const = 0;
 
  protected:
@@ -47,9 +47,10 @@ class FrameMotion {
 
 /// One sample of a tracked frame: time [s] and pose.
 struct PoseSample {
-  double t = 0.0;                                 ///< [s]
+  double t = 0.0;                                 ///< time [s]
   RigidTransform X = RigidTransform::Identity();  ///< pose of the frame
 
+  /// Saves or restores both.
   void exchange(math::StateArchive& state) { state(t, X); }
 };
 
@@ -68,17 +69,18 @@ class MotionSegment final : public FrameMotion {
   /// The motion of a frame C that is fixed to the frame B of this motion at the pose `X_BC`.
   MotionSegment of_frame(const RigidTransform& X_BC) const;
 
-  double begin() const { return begin_; }  ///< [s]
-  double end() const { return end_; }      ///< [s]; infinity for a frame at rest
+  double begin() const { return begin_; }  ///< time of its start [s]
+  double end() const { return end_; }      ///< time of its end [s]; infinity for a frame at rest
   /// Motion at time `t` [s], begin() ≤ t ≤ end().
   MotionState at(double t) const;
   OwnAxesMotion in_own_axes(double t) const override;
   FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override;
-  /// Whether this frame is at rest, and somewhere else than `next` has it at time `t` [s].
+  /// Whether this frame is at rest at another pose than that of `next` at time `t` [s].
   bool rests_apart_from(const MotionSegment& next, double t) const {
     return !moving_ && at(t).X.matrix() != next.at(t).X.matrix();
   }
 
+  /// Saves or restores the segment.
   void exchange(math::StateArchive& state) {
     state(X_a_, begin_, end_, moving_, turning_, position_, rotation_, has_offset_, X_BC_);
   }

@@ -20,7 +20,7 @@ class PoseTrack {
   /// its linear part is not a rotation.
   bool push(const PoseSample& sample);
 
-  bool empty() const { return nodes_.empty(); }
+  bool empty() const { return nodes_.empty(); }             ///< whether it has no sample
   double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample still held [s]
   double end() const { return nodes_.back().sample.t; }     ///< time of the newest sample [s]
   /// The segment that starts at or contains `t`, begin() ≤ t; at or after end(), at rest at the newest pose. The
@@ -35,9 +35,9 @@ class PoseTrack {
   double next_after(double t) const;
   /// Forgets samples that no segment at or after `t` needs.
   void forget_before(double t);
-  void clear();
+  void clear();  ///< forgets all samples
 
-  void exchange(math::StateArchive& state);
+  void exchange(math::StateArchive& state);  ///< saves or restores samples and velocities
 
  private:
   struct Node {

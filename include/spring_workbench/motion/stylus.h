@@ -29,17 +29,17 @@ class Stylus {
   /// Forgets samples and buttons.
   void reset() {
     track_.clear();
-    presses_.clear();
+    edges_.clear();
     wrench_.clear();
     X_WS_ = X_WS_start_;
     clutched_ = displaced_ = false;
   }
 
   bool push(const PoseSample& sample) { return track_.push(sample); }
-  void push(double t, ButtonEdge press) {
-    auto at = presses_.end();
-    while (at != presses_.begin() && std::prev(at)->t > t) --at;
-    presses_.insert(at, {t, press});
+  void push(double t, ButtonEdge edge) {
+    auto at = edges_.end();
+    while (at != edges_.begin() && std::prev(at)->t > t) --at;
+    edges_.insert(at, {t, edge});
   }
   void push(const ExternalWrench& sample) { wrench_.push(sample); }
   const PoseTrack& track() const { return track_; }
@@ -60,21 +60,21 @@ class Stylus {
     return segment.at(std::max(now, segment.begin())).velocity;
   }
   /// The time after `now` of the next button edge or change of the wrench; infinity if there is none.
-  double next_edge(double now) const {
-    const bool later = !presses_.empty() && presses_.front().t > now + same_time;
-    const double press = later ? presses_.front().t : std::numeric_limits<double>::infinity();
-    return std::min(press, wrench_.next_edge(now, same_time));
+  double next_event_time(double now) const {
+    const bool later = !edges_.empty() && edges_.front().t > now + same_time;
+    const double edge = later ? edges_.front().t : std::numeric_limits<double>::infinity();
+    return std::min(edge, wrench_.next_change_time(now, same_time));
   }
   /// Updates the wrench to time `now`. Returns whether it has just timed out.
   bool follow_wrench(double now) { return wrench_.follow(now, same_time); }
   /// The wrench at the time of the last follow_wrench(); none if it is zero.
   const std::optional<ExternalWrench>& wrench() const { return wrench_.present(); }
   /// Takes the next button edge up to `now`, if there is one.
-  std::optional<ButtonEdge> take_press(double now) {
-    if (presses_.empty() || presses_.front().t > now + same_time) return std::nullopt;
-    const ButtonEdge press = presses_.front().press;
-    presses_.pop_front();
-    return press;
+  std::optional<ButtonEdge> take_edge(double now) {
+    if (edges_.empty() || edges_.front().t > now + same_time) return std::nullopt;
+    const ButtonEdge edge = edges_.front().edge;
+    edges_.pop_front();
+    return edge;
   }
 
   bool clutched() const { return clutched_; }
@@ -83,7 +83,7 @@ class Stylus {
     if (clutched_ && !on && known(now)) {
       const RigidTransform X_W = track_.pose(std::max(now, track_.begin()));  // of the hand
       offset_W_ = X_WS_.translation() - X_W.translation();
-      rotation_offset_ = make_transform(Quaterniond(X_W.linear().transpose() * X_WS_.linear()), Vector3d::Zero());
+      rotation_offset_ = make_transform(Vector3d::Zero(), Quaterniond(X_W.linear().transpose() * X_WS_.linear()));
       displaced_ = true;
     }
     clutched_ = on;
@@ -102,14 +102,14 @@ class Stylus {
   }
 
   void exchange(math::StateArchive& state) {
-    state(track_, presses_, wrench_, X_WS_, clutched_, displaced_, offset_W_, rotation_offset_);
+    state(track_, edges_, wrench_, X_WS_, clutched_, displaced_, offset_W_, rotation_offset_);
   }
 
  private:
   struct Edge {
     double t;
-    ButtonEdge press;
-    void exchange(math::StateArchive& state) { state(t, press); }
+    ButtonEdge edge;
+    void exchange(math::StateArchive& state) { state(t, edge); }
   };
   /// The pose of S for this pose of the hand.
   RigidTransform of_tool(const RigidTransform& X_W) const {
@@ -129,7 +129,7 @@ class Stylus {
   }
 
   PoseTrack track_;
-  std::deque<Edge> presses_;
+  std::deque<Edge> edges_;
   WrenchTrack wrench_;
   RigidTransform X_WS_start_, X_WS_;
   bool clutched_ = false;

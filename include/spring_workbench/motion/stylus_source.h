@@ -18,7 +18,13 @@ struct StylusSample : PoseSample {
 };
 
 /// A button edge of a stylus.
-enum class ButtonEdge { grasp, release, next_tool, clutch_on, clutch_off };
+enum class ButtonEdge {
+  grasp,       ///< the grasp button goes down
+  release,     ///< the grasp button goes up
+  next_tool,   ///< the second button goes down
+  clutch_on,   ///< the clutch button goes down
+  clutch_off,  ///< the clutch button goes up
+};
 
 /// Measurement of a machine's force sensor: a wrench on the held object at the tip E.
 struct ExternalWrench {
@@ -28,8 +34,10 @@ struct ExternalWrench {
   Wrench wrench;            ///< about the origin of E, each component within ±1e5 [N, N·m]
   Axes axes = Axes::world;  ///< axes in which `wrench` is given
 
+  /// Saves or restores all fields.
   void exchange(math::StateArchive& state) { state(t, wrench, axes); }
 };
+/// The words for the axes.
 inline std::vector<std::string> names_of(ExternalWrench::Axes) { return {"world", "tip"}; }
 
 /// Throws InputError naming `where`, field, value and rule if a component is not finite or out of range.

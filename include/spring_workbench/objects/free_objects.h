@@ -47,8 +47,8 @@ class FreeObjects : public ObjectList {
   void wake_supported_by(std::size_t object, double now);
 
  protected:
-  /// Keeps a reference to `scene`. `bisection_levels`: of the search for the first contact.
-  FreeObjects(const scene::Scene& scene, int bisection_levels);
+  /// Keeps a reference to `scene`. `impact_bisections`: of the search for the first contact.
+  FreeObjects(const scene::Scene& scene, int impact_bisections);
 
   /// Returns all objects to their initial poses, asleep unless they would fall from there.
   void return_to_start();
@@ -63,7 +63,7 @@ class FreeObjects : public ObjectList {
   bool touches_moving_body(std::size_t object) const;
 
   std::unique_ptr<collision::CollisionWorld> collision_;      ///< null without contact
-  std::unique_ptr<contact::ContactStepper> contact_stepper_;  ///< likewise
+  std::unique_ptr<contact::ContactStepper> contact_stepper_;  ///< null without contact
   std::unique_ptr<contact::DynamicStepper> dynamic_stepper_;  ///< only with contact mode `dynamic`
   contact::ContactLog contacts_;
   /// Data on a movable object in addition to its state.

@@ -44,7 +44,7 @@ class ObjectList {
   const scene::Scene& scene_;
   std::vector<bodies::BodyState> states_;
   bodies::Changes changes_;
-  bodies::Changes::Moment reset_moment_;
+  bodies::Changes::Revision reset_revision_;
   std::vector<std::size_t> object_of_;    ///< object by index in the scene; valid for movable bodies
   std::vector<std::size_t> highlighted_;  ///< the objects that are highlighted
 

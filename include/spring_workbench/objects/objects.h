@@ -20,8 +20,8 @@ struct Carried {
 /// `hold`, moves it in `step`, and gives it back by `let_go`.
 class Objects : public FreeObjects {
  public:
-  /// Keeps a reference to `scene`. `bisection_levels`: of the search for the first contact.
-  Objects(const scene::Scene& scene, int bisection_levels);
+  /// Keeps a reference to `scene`. `impact_bisections`: of the search for the first contact.
+  Objects(const scene::Scene& scene, int impact_bisections);
   ~Objects();
 
   /// Returns all objects to their initial poses, asleep unless they would fall from there.

@@ -4,8 +4,8 @@
 
 namespace spring_workbench::rod {
 
-/// Steps of finite differences about strains or rates: these ones, or more where they would be lost in the rounding of
-/// one that is far off.
+/// Finite-difference steps about the strains or rates `about`: `least`, but larger for components so large that `least`
+/// would vanish in rounding.
 StrainVector difference_steps(const StrainVector& least, const StrainVector& about);
 
 }  // namespace spring_workbench::rod

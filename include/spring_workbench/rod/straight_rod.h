@@ -9,7 +9,7 @@ inline StraightRod::StraightRod(const ShapeModel& shape)
     : torsion_(shape.torsion().begin),
       stretch_(shape.stretch().begin),
       length_(shape.length()),
-      twist_(shape.twist(StrainVector::Unit(shape.size(), torsion_))),
+      twist_(shape.torsion_angle(StrainVector::Unit(shape.size(), torsion_))),
       extension_(shape.extension(StrainVector::Unit(shape.size(), stretch_))) {}
 
 template <typename S>

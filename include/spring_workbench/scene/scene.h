@@ -25,7 +25,8 @@ struct Material {
   double friction = 0.5;                                       ///< Coulomb coefficient, ≥ 0
   double restitution = 0.0;                                    ///< 0 … 1
   double density = 1000.0;                                     ///< [kg/m³], > 0
-  double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m], > 0
+  double stiffness = std::numeric_limits<double>::infinity();  ///< of the surface against a contact force [N/m], > 0;
+                                                               ///< infinite: rigid
 };
 
 /// Compliance of two materials in contact, in series [m/N]; 0: both are rigid.
@@ -45,6 +46,7 @@ struct Body {
 
 /// Contact: none; `stop`: the held or falling object stops at the others; `dynamic`: it also moves them.
 enum class ContactMode { none, stop, dynamic };
+/// Their words in settings and scenes.
 inline std::vector<std::string> names_of(ContactMode) { return {"none", "stop", "dynamic"}; }
 
 /// Target of an object in an assembly: pose of its link frame in world, with tolerances [m, rad].

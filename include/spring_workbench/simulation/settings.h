@@ -23,10 +23,10 @@ using rod::ForkChange;
 /// Settings of a simulation, one field per key. `setting_descriptions()` has type, unit, range and meaning of each key;
 /// parameters, the options of `replay` and doc/reference.md come from it.
 struct SimulationSettings {
-  std::optional<tools::Tool> tool;            ///< key `tool`; absent: as in the scene, likewise for the next three
-  std::optional<scene::ContactMode> contact;  ///< key `contact`
-  std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
-  std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
+  std::optional<tools::Tool> tool;            ///< key `tool`; absent: as the scene says
+  std::optional<scene::ContactMode> contact;  ///< key `contact`; absent: as the scene says
+  std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000; absent: as the scene says
+  std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9; absent: as the scene says
   bool massless = false;                      ///< key `massless`: no object has mass
   int styluses = 2;                           ///< key `styluses`, 1 … 255 (a byte in messages)
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
@@ -38,7 +38,7 @@ struct SimulationSettings {
   tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;   ///< key `dropout_after` [s], > 0: silence after which a hand rests
   double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10
-  int bisection_levels = 8;     ///< key `bisection_levels`, 0 … 30 (paper, section 5); 0: time of impact instead
+  int impact_bisections = 8;    ///< key `impact_bisections`, 0 … 30 (paper, section 5); 0: time of impact instead
 };
 
 /// Throws InputError naming `where`, key, value and rule for a value that its key does not allow, or for damping ratios
@@ -46,22 +46,24 @@ struct SimulationSettings {
 void validate(const SimulationSettings& settings, const std::string& where);
 
 /// Converts a twist in the world to the lengths and time of the hand, for a machine that moves in place of the hand.
-inline Twist at_hand(const Twist& V_W, const SimulationSettings& s) {
+/// Axes stay those of the world.
+inline Twist to_hand_units(const Twist& V_W, const SimulationSettings& s) {
   return {s.hand_time_scale / s.hand_scale * V_W.linear, s.hand_time_scale * V_W.angular};
 }
 
 /// A change of integrator, step or tolerance; absent fields stay as they are.
 struct DynamicsChange {
   std::optional<dynamics::IntegratorKind> integrator;  ///< of all hands
-  std::optional<double> step;                          ///< [s]
-  std::optional<double> tolerance;                     ///< [m]; 0: fixed steps
+  std::optional<double> step;                          ///< largest step [s]
+  std::optional<double> tolerance;                     ///< for the error of the run [m]; 0: fixed steps
 
-  bool empty() const { return !integrator && !step && !tolerance; }
-  dynamics::DynamicsSettings applied_to(dynamics::DynamicsSettings dynamics) const;
+  bool empty() const { return !integrator && !step && !tolerance; }                  ///< whether it changes nothing
+  dynamics::DynamicsSettings applied_to(dynamics::DynamicsSettings dynamics) const;  ///< `dynamics` with this change
 };
 
 /// A change of one object of the scene while running.
 struct ObjectEdit {
+  /// Adds or removes the object, moves it, or changes its mass or friction.
   enum class Action { add, move, remove, mass, friction };
   Action action = Action::move;        ///< what to do
   std::string name;                    ///< of the object
@@ -71,9 +73,10 @@ struct ObjectEdit {
   double mass = 0.0;                   ///< for `mass`: the new mass [kg], 0 … 1e12; with 0 the object is massless
   double friction = 0.0;               ///< for `friction`: the new Coulomb coefficient, ≥ 0
 
-  bool operator==(const ObjectEdit& other) const;
-  void exchange(math::StateArchive& state) { state(action, name, urdf, X_WL, mass, friction); }
+  bool operator==(const ObjectEdit& other) const;  ///< whether all fields are equal
+  void exchange(math::StateArchive& state) { state(action, name, urdf, X_WL, mass, friction); }  ///< all fields
 };
+/// The words for the actions, in their order.
 inline std::vector<std::string> names_of(ObjectEdit::Action) { return {"add", "move", "remove", "mass", "friction"}; }
 
 /// Throws InputError naming field, value and rule if a value is invalid.
@@ -81,12 +84,12 @@ void validate(const ObjectEdit& edit);
 
 /// Description of one key.
 struct SettingDescription {
-  std::string key;      ///< e.g. "fork.stiffness.bend"
-  std::string type;     ///< bool, int, double, string, double list
-  std::string unit;     ///< SI unit, or "–"
-  std::string allowed;  ///< e.g. "> 0"
-  std::string default_value;
-  std::string meaning;
+  std::string key;            ///< e.g. "fork.stiffness.bend"
+  std::string type;           ///< bool, int, double, string, double list
+  std::string unit;           ///< SI unit, or "–"
+  std::string allowed;        ///< e.g. "> 0"
+  std::string default_value;  ///< as text
+  std::string meaning;        ///< what it does, in one line
 };
 std::vector<SettingDescription> setting_descriptions();  ///< descriptions of all settings
 

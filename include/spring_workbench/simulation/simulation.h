@@ -20,17 +20,17 @@
 namespace spring_workbench::simulation {
 
 /// The whole state of a simulation between two calls: everything that its future depends on, apart from its scene and
-/// the settings it was made with. A simulation of the same scene and settings that is restored from it has a
-/// bit-identical future to the one that was saved (`Simulation::save`, `Simulation::restore`).
+/// the settings that it was made with. A simulation of the same scene and settings that is restored from it continues
+/// bit-identically (`Simulation::save`, `Simulation::restore`).
 class SimulationState {
  public:
   SimulationState() = default;  ///< an empty state, which `Simulation::restore` refuses
 
   int styluses() const { return styluses_; }  ///< number of styluses of the simulation that was saved; 0 if empty
-  /// Returns a hash of all its numbers; equal states have equal hashes on every machine.
-  std::uint64_t hash() const { return math::hash(words_); }
+  std::uint64_t hash() const { return math::hash(words_); }  ///< the same for equal states, on every machine
+  /// Whether two states are bit-identical and from simulations of the same kind.
   bool operator==(const SimulationState& other) const { return origin_ == other.origin_ && words_ == other.words_; }
-  bool operator!=(const SimulationState& other) const { return !(*this == other); }
+  bool operator!=(const SimulationState& other) const { return !(*this == other); }  ///< whether they are not
 
  private:
   friend class Simulation;
@@ -46,39 +46,49 @@ class SimulationState {
 /// The state as YAML text for another process, with all bits of every number.
 std::string serialise(const SimulationState& state);
 
-/// Reads the text of serialise(). Throws InputError if it is not such a state, or if its hash does not match its
-/// numbers.
+/// Reads the text of serialise(). Throws InputError if it is not such a state, or if its hash does not match it.
 SimulationState parse_state(const std::string& text);
 
-/// A hash as 16 hexadecimal digits.
-std::string to_hex(std::uint64_t hash);
-
-/// Report on a call of `advance` or a sequence of calls.
+/// Report on a call of `advance_to` or a sequence of calls. Errors are the result minus the exact solution of the
+/// equation of motion. An error bound is an empirical estimate from above, not a rigorous bound (doc/model.md, "Error
+/// bound"). An integration is one solution of the equation of motion over a step or a part of one: in contact there
+/// are several in a step.
 struct AdvanceReport {
-  std::int64_t steps = 0;       ///< integrator steps taken
-  double simulated_time = 0.0;  ///< [s]
-  double position_error = 0.0;  ///< largest estimate of a step's local error [m]
-  double angle_error = 0.0;     ///< largest estimate of a step's local error in angle [rad]
-  // Bounds over the steps that have one (doc/model.md, "Error bound"); none without the setting `error_bound`.
-  std::optional<double> local_error_bound;  ///< largest bound on a step's local error in position [m]
-  std::optional<double> error_bound;  ///< of the error in position since the grasp or the last step without one [m]
-  std::optional<double> angle_error_bound;  ///< the same in angle [rad]
-  int steps_unbounded = 0;                  ///< integrations (in contact several a step) without a bound
-  double energy_balance = 0.0;     ///< energy of the held object and the fork beyond the work of hand, gravity, damping
-                                   ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
-  double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
-  int steps_among_movable = 0;     ///< steps near other movable objects (contact mode `dynamic`)
+  /// @name Steps and contact
+  /// @{
+  std::int64_t steps = 0;       ///< integrator steps that were taken
+  double simulated_time = 0.0;  ///< time that was simulated [s]
+  /// Steps that were discarded and repeated as shorter ones, since the equation was not solved or the error too large
+  /// (other engines call a part of a step that is taken a substep; this counts those that are not).
+  std::int64_t substeps = 0;
+  int steps_fallback = 0;  ///< integrations by an L-stable rule, since the integrator's own equation was not solved
+  int steps_rejected = 0;  ///< steps without a usable result (non-finite or out of range): the fork is rigid for that
+                           ///< step or, in contact, the object stays
+  int stops = 0;           ///< steps in which the fork reached the end of its range; unrelated to contact mode `stop`
+  int steps_blocked = 0;   ///< steps in which no admissible motion of an object was found, so that it stayed in place
+  /// Steps, or parts of one, that were accepted although a contact among movable objects was left with a residual above
+  /// 1 µm, was deeper than 0.1 mm, or was lost.
+  int steps_unsolved = 0;
+  int steps_among_movable = 0;         ///< steps near other movable objects (contact mode `dynamic`)
   std::int64_t collision_queries = 0;  ///< queries to the collision library
-  std::int64_t substeps = 0;  ///< steps discarded and repeated as shorter ones: equation not solved, or error too large
-  int stops = 0;              ///< steps that met the end of the fork's range
-  int steps_fallback = 0;     ///< integrations by an L-stable rule, since the integrator's own equation was not solved
-  double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
-  int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
-  int steps_unsolved = 0;     ///< (parts of) steps in which a contact among movable objects missed its law by 1 µm
-  double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
-  int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
-  int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time
-  std::bitset<8> ran;         ///< the subsystems that ran, in the order of active()
+  double time_lost = 0.0;              ///< time during which an object did not follow its equation of motion [s]
+  double stiffest_omega_dt = 0.0;      ///< largest product of the stiffest mode's angular frequency and the step
+  int wrench_timeouts = 0;             ///< external wrenches that ended because the next one did not come in time
+  /// @}
+  /// @name Errors
+  /// @{
+  double position_error = 0.0;              ///< largest estimate of a step's local error in position [m]
+  double angle_error = 0.0;                 ///< largest estimate of a step's local error in angle [rad]
+  std::optional<double> local_error_bound;  ///< largest bound of a local error in position [m]; none: no step has one
+  std::optional<double> error_bound;  ///< largest bound of an object's error in position since its grasp, or since its
+                                      ///< last step without a bound [m]; none: no step has one
+  std::optional<double> angle_error_bound;  ///< largest bound of an object's error in angle over that time [rad]
+  int integrations_without_bound = 0;       ///< integrations that have no error bound
+  double energy_error = 0.0;                ///< sum of the steps' estimated errors in energy [J]
+  double energy_balance = 0.0;  ///< energy of the held object and the fork beyond the work of hand, gravity, damping
+                                ///< and contact [J]; meaningful if `stiffest_omega_dt` is below about 1
+  /// @}
+  std::bitset<8> ran;  ///< the subsystems that ran; active() and skipped() have their names
 
   std::vector<std::string> active() const;   ///< names of the subsystems that ran
   std::vector<std::string> skipped() const;  ///< names of the subsystems that were not needed
@@ -89,51 +99,64 @@ struct AdvanceReport {
 /// Effect of a change on the energy.
 struct ChangeReport {
   double elastic_energy_before = 0.0;  ///< stored in the tools just before the change [J]
-  double elastic_energy_after = 0.0;   ///< and just after it [J]
+  double elastic_energy_after = 0.0;   ///< stored in the tools just after the change [J]
   double energy_added = 0.0;           ///< what the change adds to Simulation::energy() [J]
   std::string message;                 ///< one line for the user
 };
 
-/// Simulates a scene with hands and their tools, and runs only the subsystems that the scene needs. It owns simulated
-/// time. It uses no clock, thread, log or ROS: the same calls give bit-identical results. NaN is neither accepted nor
-/// returned. Hands are numbered from 0 (the first stylus) to hands() − 1; any other number throws InputError. All times
-/// are those of the hand's clock. World time runs `settings().hand_time_scale` times as fast; velocities, rates and the
-/// limit `settings().dynamics.step` refer to world time.
+/// Simulates a scene with hands and their tools, and runs only the subsystems that the scene needs.
+///
+///     simulation::Simulation sim(scene::load_scene("box.urdf"), {});
+///     for (double t : {0.0, 0.5, 1.0}) {  // the hand moves up; the fork points down, into the box
+///       sim.push_stylus({t, make_transform({0.0, 0.0, 0.24 + 0.1 * t}, Quaterniond(0.0, 1.0, 0.0, 0.0))});
+///     }
+///     sim.push_button(0.0, true);  // grasp
+///     sim.advance_to(1.0);
+///     std::cout << sim.objects()[0].X_WO.translation().transpose() << " m\n";
+///
+/// - Frames: world W, stylus S, handle H, tip E, object O at its centre of mass. z of S and H points along the fork,
+///   from the hand to the tip. Poses and velocities are in W unless the name says otherwise.
+/// - Hands are numbered from 0 to hands() − 1 (the nodes number them from 1); another number throws InputError.
+/// - Time: the simulation owns its time and reads no clock: the same calls give bit-identical results, none of them
+/// NaN.
+///   All times are those of the hand's clock. World time runs `settings().hand_time_scale` times as fast; velocities,
+///   rates and `settings().dynamics.step` refer to world time.
+/// - Lifetimes: the scene is copied. References from const members are valid until the next call of a non-const one. A
+///   simulation can be moved; to copy it, construct one from the same scene and settings, then copy_state_from().
+/// - Threads: not thread-safe, not even among const members, apart from prepare_edit() and prepare_rewind(). Separate
+///   simulations are independent.
 class Simulation {
  public:
   /// Throws InputError if settings and scene do not match (e.g. if `grasp.object` is not in the scene).
   Simulation(const scene::Scene& scene, const SimulationSettings& settings);
   ~Simulation();
-  Simulation(Simulation&&) noexcept;
-  Simulation& operator=(Simulation&&) noexcept;
+  Simulation(Simulation&&) noexcept;             ///< the other can then only be destroyed or assigned to
+  Simulation& operator=(Simulation&&) noexcept;  ///< the other can then only be destroyed or assigned to
 
-  /// The scene with all edits; objects are at their start poses.
-  const scene::Scene& scene() const;
+  const scene::Scene& scene() const;  ///< the scene with all edits; objects are at their start poses
   /// The settings as given, with `dynamics` as changed since and `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
-  std::size_t hands() const;  ///< number of hands, `settings().styluses`
-  /// The fork in a hand, with all changes and calibrations since the start.
-  const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
-
-  /// Simulated time [s]: at first the first sample's stamp, or the `t_end` of the first `advance` if that is earlier.
+  std::size_t hands() const;                                           ///< number of hands, `settings().styluses`
+  const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;  ///< the fork in a hand, with all changes so far
+  /// Simulated time [s]: at first the first sample's stamp, or the first `t_end` of advance_to() if that is earlier.
   double time() const;
-  /// Simulated time in world time [s].
-  double world_time() const;
+  double world_time() const;  ///< simulated time in world time [s]
 
-  /// Adds a pose of the stylus, unfiltered; its position is scaled by `settings().hand_scale`. Returns false if its
-  /// stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).
+  /// Adds a pose X_WS of the stylus, unfiltered; its position is scaled by `settings().hand_scale`. Between samples the
+  /// hand moves smoothly. A sample before time() changes the hand's motion from time() on. Returns false, and ignores
+  /// the sample, if it is not later than the newest one. Throws InputError if the pose is invalid
+  /// (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// Presses or releases a button at the finite time `t` [s]; it acts at the first step that begins at or after `t`.
-  void push_edge(double t, motion::ButtonEdge press, std::size_t hand = 0);
-  /// Presses or releases the grasp button.
+  /// Adds a button edge at the finite time `t` [s]; it acts at the first step that begins at or after `t`.
+  void push_edge(double t, motion::ButtonEdge edge, std::size_t hand = 0);
+  /// Presses or releases the grasp button at time `t` [s].
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_edge(t, pressed ? motion::ButtonEdge::grasp : motion::ButtonEdge::release, hand);
   }
-  /// Presses the second button, which selects the next tool or, while something is held, the next tool that can hold
-  /// it.
+  /// Selects the next tool at time `t` [s] or, while something is held, the next tool that can hold it.
   void push_next_tool(double t, std::size_t hand = 0) { push_edge(t, motion::ButtonEdge::next_tool, hand); }
-  /// Switches the clutch. While it is on, the tool and what it holds stay in place; when it is switched off, they
-  /// follow the hand's further motion from there.
+  /// Switches the clutch at time `t` [s]. While it is on, the tool and what it holds stay in place; when it is switched
+  /// off, they follow the hand's further motion from there.
   void push_clutch(double t, bool on, std::size_t hand = 0) {
     push_edge(t, on ? motion::ButtonEdge::clutch_on : motion::ButtonEdge::clutch_off, hand);
   }
@@ -141,57 +164,59 @@ class Simulation {
   /// the scene's `force_scale`. It acts from its time (at once if that has passed) until the next wrench, but at most
   /// for `settings().wrench_timeout`. Throws InputError, and changes nothing, if it is invalid.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
-  /// Time of the newest sample of any hand, or time() if there is none.
-  double newest_sample() const;
-  /// The next time [s] at which a hand has a sample, a button changes or an external wrench begins or ends; infinity
-  /// if there is none. A simulation that is advanced from edge to edge gives the same result as one that is advanced
-  /// over several edges in one call.
-  double next_edge() const;
+  double newest_sample_time() const;  ///< time of the newest sample of any hand, or time() if there is none [s]
+  /// The next time [s] at which a hand has a sample, a button changes or an external wrench begins or ends; infinity if
+  /// there is none. Advancing from event to event gives the same result as advancing over several in one call.
+  double next_event_time() const;
 
   /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; steps also end at each
   /// sample. If `t_end` is not later than time(), no time passes, but pending buttons act. Throws InputError if it is
   /// not finite.
-  AdvanceReport advance(double t_end);
+  AdvanceReport advance_to(double t_end);
 
-  /// Releases all objects, returns them to their start poses and forgets all samples.
-  void reset();
+  void reset();  ///< releases all objects, returns them to their start poses and forgets all samples
   /// Places these objects at rest at the given poses; all hands release first. Throws InputError, and changes nothing,
   /// if a name is not that of a movable object or a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
   /// One hand or, with std::nullopt, each releases its object. Returns false if nothing was held.
   bool release(std::optional<std::size_t> hand = std::nullopt);
 
-  // Changes while running. The pose and twist of the object do not jump. An impossible change throws InputError and
-  // changes nothing.
+  // Changes while running. Pose and twist of the object do not jump. An impossible change throws InputError and changes
+  // nothing.
   /// Changes the tool in one hand or, with std::nullopt, in each. The hand keeps its object, and the new tool starts
   /// without strain; the probe cannot hold an object, so it is released.
-  ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = 0);
+  ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = std::nullopt);
   /// Changes the fork in one hand or, with std::nullopt, in each, and integrator, step or tolerance of all hands.
-  ChangeReport change(const ForkChange& fork, const DynamicsChange& dynamics,
+  ChangeReport change(const ForkChange& fork, const DynamicsChange& dynamics = {},
                       std::optional<std::size_t> hand = std::nullopt);
-  ChangeReport change(const ForkChange& fork, std::optional<std::size_t> hand = std::nullopt) {
-    return change(fork, {}, hand);
-  }
-  ChangeReport change(const DynamicsChange& dynamics) { return change({}, dynamics); }
+  /// Calibrates one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
+  /// scene's stiffness. Damping ratios are not changed. Throws InputError if no fork or spring holds an object.
+  ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
   /// Adds, moves or removes an object, or changes its mass or friction; the state of everything else is kept. Added and
   /// moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed one fall. A
   /// removed object is released first. A moved object keeps its start pose, to which reset() returns it. The URDF of an
   /// added object is read from `roots` as in load_scene(), and again by restore(). Also throws InputError if a held
   /// object is to be moved, or if an added or moved object would overlap another body by more than 0.1 mm.
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) {
-    std::optional<Simulation> next = edited(edit, roots);
-    return this->edit(edit, next);
+    std::optional<Simulation> prepared = prepare_edit(edit, roots);
+    return apply_edit(edit, prepared);
   }
-  /// Likewise, in little time. `next`: from edited(edit); afterwards it is the simulation as it was before.
-  ChangeReport edit(const ObjectEdit& edit, std::optional<Simulation>& next);
-  /// The edited scene as a simulation at its start; nothing if edit() needs no other. This takes long, but depends only
-  /// on what advance() does not change: another thread may advance this simulation meanwhile. Throws as edit().
-  std::optional<Simulation> edited(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) const;
-  /// Likewise for restore() and go_back_to(): the scene with the edits of `state`. Throws as restore().
-  std::optional<Simulation> edited(const SimulationState& state) const;
-  /// Calibrates one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
-  /// scene's stiffness. Damping ratios are not changed. Throws InputError if no fork or spring holds an object.
-  ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
+
+  /// @name Edits in two phases, for real-time threads
+  /// @{
+
+  /// First phase of edit(): builds the edited scene as a new simulation, or returns nothing if none is needed. Slow,
+  /// but another thread may call advance_to() meanwhile: it reads only what that does not change. Throws InputError.
+  std::optional<Simulation> prepare_edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) const;
+  /// Second phase of edit(), fast: swaps in `prepared`, from prepare_edit(), which then is the simulation as it was
+  /// before, to be destroyed on any thread. Throws InputError.
+  ChangeReport apply_edit(const ObjectEdit& edit, std::optional<Simulation>& prepared);
+  /// First phase of rewind_to(), as slow as prepare_edit() and as independent of advance_to(). Throws as restore().
+  std::optional<Simulation> prepare_rewind(const SimulationState& state) const;
+  /// Second phase, fast: goes back to edits, settings, tools and objects of an earlier state. Time and the hands' input
+  /// (samples, buttons, clutch) continue, nothing is held, and the objects are at rest. `prepared`: as in apply_edit().
+  void rewind_to(const SimulationState& state, std::optional<Simulation>& prepared);
+  /// @}
 
   const std::vector<bodies::BodyState>& objects() const;  ///< the movable objects, in the scene's order
   const bodies::Changes& object_changes() const;          ///< changes of the states in objects()
@@ -200,8 +225,8 @@ class Simulation {
   /// elastic_energy(), and kinetic and potential energy of the objects (zero at z = 0) [J]; without what is stored in
   /// compliant materials.
   double energy() const;
-  /// The current contacts, and those that ended in the last call of advance().
-  const std::vector<contact::ContactState>& contacts() const;
+  const std::vector<contact::ContactState>& contacts()
+      const;  ///< those now, and those that the last advance_to() ended
 
   /// Saves the whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
   /// starts, histories of integrators, the settings that can be changed while running, and the edits. Two saves of one
@@ -211,11 +236,8 @@ class Simulation {
   /// changes nothing, if the state is invalid or has different objects, a different number of styluses, or a different
   /// contact mode or fork shape.
   void restore(const SimulationState& state);
-  /// Goes back to edits, settings, tools and objects of an earlier state; time and the hands' input (samples, buttons,
-  /// clutch) continue, nothing is held, and the objects are at rest. `next`: as in edit(), but gone back to `state`.
-  void go_back_to(const SimulationState& state, std::optional<Simulation>& next);
   /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.
-  void follow(const Simulation& other);
+  void copy_state_from(const Simulation& other);
   std::uint64_t state_hash() const { return save().hash(); }  ///< hash of save()
 
  private:
@@ -224,7 +246,7 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Makes a change of the simulation and reports the energy before and after it; `change` returns the message.
-ChangeReport reported(const Simulation& simulation, const std::function<std::string()>& change);
+/// Runs `change`, which returns a message for the user. Returns the message, and the energies before and after it.
+ChangeReport with_energy_report(const Simulation& simulation, const std::function<std::string()>& change);
 
 }  // namespace spring_workbench::simulation

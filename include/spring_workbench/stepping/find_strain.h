@@ -6,9 +6,10 @@
 
 namespace spring_workbench::stepping {
 
+/// Result of find_strain().
 struct FoundStrain {
-  rod::StrainVector q;
-  bool found = false;  ///< otherwise the force is not zero there
+  rod::StrainVector q;  ///< strain of the active coordinates
+  bool found = false;   ///< otherwise the force is not zero there
 };
 
 /// Finds the strain of `held` at which `force`, a generalised force on its active coordinates, is zero, by Newton's

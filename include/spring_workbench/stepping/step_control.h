@@ -10,9 +10,9 @@ namespace spring_workbench::stepping {
 
 /// Bounds on the errors at the object's centre of mass (doc/model.md, "Error bound").
 struct ErrorBounds {
-  std::optional<double> local;     ///< largest bound on a step's local error in position [m]; none if no step has one
-  std::optional<double> position;  ///< the same of the run's error in position, since the run was last exact [m]
-  std::optional<double> angle;     ///< the same of its error in orientation [rad]
+  std::optional<double> local;     ///< largest bound of a step's local error in position [m]; none if no step has one
+  std::optional<double> position;  ///< of the run's error in position, since the run was last exact [m]
+  std::optional<double> angle;     ///< of the run's error in orientation, since then [rad]
   int unbounded = 0;               ///< steps without a bound
 
   void add(const ErrorBounds& next) {
@@ -32,7 +32,7 @@ struct ControlledStep {
   int fallback = 0;             ///< steps taken by fallback_step()
   int stops = 0;                ///< steps that met the end of the rod's range, or of the bushing's chart
   double position_error = 0.0;  ///< largest estimate of a step's local error, at the object's centre of mass [m]
-  double angle_error = 0.0;     ///< the same for its orientation [rad]
+  double angle_error = 0.0;     ///< that estimate for the orientation of the object [rad]
   double energy_error = 0.0;    ///< sum of the estimates of the steps' errors in energy [J]
   double energy_added = 0.0;    ///< energy gained beyond the work of hand, gravity, contact and dampers [J]
   double omega_dt = 0.0;        ///< largest ω·dt of the stiffest mode
@@ -63,21 +63,21 @@ class StepControl {
  public:
   /// What is kept from one span to the next. It is part of the state.
   struct Memory {
-    double next_h = 0.0;          ///< with a tolerance: the next step to try [s]; 0: unknown
-    int level = 0;                ///< without: the shortest step of the last span was its 2^level-th part
-    long version = -1;            ///< version of the equations to which the other members belong
-    double t = 0.0;               ///< time to which the other members belong [s]
-    dynamics::StrainState error;  ///< estimated error of the run
-    rod::StrainMatrix swing;      ///< from strain rates to the amplitudes that they cause [s]
-    double stiffest_omega = 0.0;  ///< frequency of the stiffest undamped mode [rad/s]
-    double energy = 0.0;          ///< energy of body and fork at the end of the last step [J]
-    double energy_saved = 0.0;    ///< budget of energy errors left over, as a time [s]; negative: used in advance
-    dynamics::StrainState exact;  ///< estimate of the exact state
-    dynamics::RunError::Moments spread;  ///< uncertainty of that estimate (RunError)
-    dynamics::StrainState end;           ///< state at the end of the last span
-    double error_bound = 0.0;            ///< bound on the error in position at the end of the last span [m]
-    double angle_bound = 0.0;            ///< the same for the orientation [rad]
-    bool bounded = false;                ///< whether the two bounds are valid (doc/model.md, "Error bound")
+    double next_h = 0.0;                ///< with a tolerance: the next step to try [s]; 0: unknown
+    int level = 0;                      ///< without: the shortest step of the last span was its 2^level-th part
+    long version = -1;                  ///< version of the equations to which the other members belong
+    double t = 0.0;                     ///< time to which the other members belong [s]
+    dynamics::StrainState error;        ///< estimated error of the run
+    rod::StrainMatrix swing;            ///< from strain rates to the amplitudes that they cause [s]
+    double stiffest_omega = 0.0;        ///< frequency of the stiffest undamped mode [rad/s]
+    double energy = 0.0;                ///< energy of body and fork at the end of the last step [J]
+    double energy_saved = 0.0;          ///< budget of energy errors left over, as a time [s]; negative: used in advance
+    dynamics::StrainState exact;        ///< estimate of the exact state
+    dynamics::RunError::Spread spread;  ///< uncertainty of that estimate (RunError)
+    dynamics::StrainState end;          ///< state at the end of the last span
+    double error_bound = 0.0;           ///< bound on the error in position at the end of the last span [m]
+    double angle_bound = 0.0;           ///< bound of its error in orientation [rad]
+    bool bounded = false;               ///< whether the two bounds are valid (doc/model.md, "Error bound")
 
     void exchange(math::StateArchive& state) {
       state(next_h, level, version, t, error, swing, stiffest_omega, energy, energy_saved, exact, spread, end,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,15 @@ enum class Tool {
   ray,           ///< rigid; the object is selected by a ray along z of the hand
 };
 
+/// Their words in settings, scenes and services.
 inline std::vector<std::string> names_of(Tool) { return {"spring", "spring_fork", "spring_probe", "direct", "ray"}; }
-bool can_hold(Tool tool);  ///< whether the tool can hold an object
-bool turns(Tool tool);     ///< whether the held object turns with the hand
+inline bool can_hold(Tool tool) { return tool != Tool::spring_probe; }  ///< whether the tool can hold an object
+/// Whether the held object turns with the hand.
+inline bool turns(Tool tool) { return can_hold(tool) && tool != Tool::spring; }
 /// Returns the next tool; with `holding`, the next one that can hold an object.
-Tool next_tool(Tool tool, bool holding);
+inline Tool next_tool(Tool tool, bool holding) {
+  const Tool next = static_cast<Tool>((static_cast<std::size_t>(tool) + 1) % names_of(tool).size());
+  return holding && !can_hold(next) ? next_tool(next, holding) : next;
+}
 
 }  // namespace spring_workbench::tools

@@ -99,8 +99,8 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
       objects.write(object_rows(simulation.time(), simulation));
       fork.write(fork_rows.at(simulation.time(), simulation, {}));
     });
-    const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
-    if (accepted != nullptr && accepted->kind == hand_input::Accepted::Kind::pose) ++summary.samples;
+    const auto* accepted = std::get_if<hand_input::AcceptedInput>(&entry.what);
+    if (accepted != nullptr && accepted->kind == hand_input::AcceptedInput::Kind::pose) ++summary.samples;
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (replayer.simulation() == nullptr) validation::refuse(options.bag, "~changes", "at least one message");
@@ -157,7 +157,7 @@ Summary run(const Options& options) {
     push_motion(motion, hand, settings.grasp.object.empty(), feed);
     summary.samples += motion.samples.size();
   }
-  const double end = simulation.newest_sample() + time_tolerance;
+  const double end = simulation.newest_sample_time() + time_tolerance;
   check_length(options, motions, end);
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {

@@ -177,11 +177,11 @@ RUN.fork.csv, a line per output time and hand:
 The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
 samples, samples_rejected (by input.*; reasons in rejected), dropouts (gaps over dropout_after), reacquisitions, losses
 (of the hand), position_error [m] and angle_error [rad] (largest estimate of a step's local error), local_error_bound
-[m] (null: none), error_bound [m] and angle_error_bound [rad] (largest of the run; null: none), steps_unbounded (without
-bound), energy_balance [J] (added by integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts
-(pairs, at the output times), collision_queries, substeps (steps discarded and repeated as shorter ones), stops (at
-the end of the fork's range), steps_fallback (integrations by an L-stable rule), steps_blocked (no motion admitted),
-steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by services and panels),
+[m] (null: none), error_bound [m] and angle_error_bound [rad] (largest of the run; null: none),
+integrations_without_bound, energy_balance [J] (added by integration beyond hand, gravity, damping and contact),
+stiffest_omega_dt, contacts (pairs, at the output times), collision_queries, substeps (steps discarded and repeated as
+shorter ones), stops (at the end of the fork's range), steps_fallback (integrations by an L-stable rule), steps_blocked
+(no motion admitted), steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by services),
 changes_made_again (repeated, not loaded), changes_mismatched (with another result), state_hash, active, skipped.
 Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.
 

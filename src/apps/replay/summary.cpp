@@ -93,7 +93,7 @@ std::string Summary::json() const {
       << ", \"angle_error\": " << number(advance.angle_error) << ", \"error_bound\": " << bound(advance.error_bound)
       << ", \"angle_error_bound\": " << bound(advance.angle_error_bound)
       << ", \"local_error_bound\": " << bound(advance.local_error_bound)
-      << ", \"steps_unbounded\": " << advance.steps_unbounded
+      << ", \"integrations_without_bound\": " << advance.integrations_without_bound
       << ", \"energy_balance\": " << number(advance.energy_balance)
       << ", \"stiffest_omega_dt\": " << number(advance.stiffest_omega_dt) << ", \"contacts\": " << contacts_
       << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
@@ -101,9 +101,8 @@ std::string Summary::json() const {
       << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_unsolved\": " << advance.steps_unsolved
       << ", \"time_lost\": " << number(advance.time_lost) << ", \"steps_rejected\": " << advance.steps_rejected
       << ", \"changes\": " << changes.repeated + changes.restored << ", \"changes_made_again\": " << changes.repeated
-      << ", \"changes_mismatched\": " << changes.mismatches.size() << ", \"state_hash\": \""
-      << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active())
-      << ", \"skipped\": " << list_of(advance.skipped()) << "}";
+      << ", \"changes_mismatched\": " << changes.mismatches.size() << ", \"state_hash\": \"" << math::to_hex(state_hash)
+      << "\", \"active\": " << list_of(advance.active()) << ", \"skipped\": " << list_of(advance.skipped()) << "}";
   return out.str();
 }
 

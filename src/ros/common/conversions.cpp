@@ -14,7 +14,7 @@ Message with_xyz(const Vector3d& v) {
 
 template <typename Vector>
 RigidTransform transform_from(const Vector& p, const geometry_msgs::Quaternion& q) {
-  return make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+  return make_transform(Vector3d(p.x, p.y, p.z), Quaterniond(q.w, q.x, q.y, q.z));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void ToolOutput::publish(const live::View& view, const tools::ToolState& tool, c
   });
   ros_common::publish_made(tip_twist_, header, [&] {
     geometry_msgs::TwistStamped message;
-    const Twist V_WE_W = simulation::at_hand(tool.V_WE_W, view.settings);
+    const Twist V_WE_W = simulation::to_hand_units(tool.V_WE_W, view.settings);
     message.twist.linear = ros_common::to_vector(V_WE_W.linear);
     message.twist.angular = ros_common::to_vector(V_WE_W.angular);
     return message;

@@ -117,7 +117,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("steps_blocked", total.steps_blocked)
       .add("steps_unsolved", total.steps_unsolved)
       .add("steps_rejected", total.steps_rejected)
-      .add("steps_unbounded", total.steps_unbounded)
+      .add("integrations_without_bound", total.integrations_without_bound)
       .add("collision_queries", total.collision_queries)
       .add("time_lost [s]", total.time_lost)
       .add("error_bound [m]", total.error_bound.value_or(std::numeric_limits<double>::infinity()))

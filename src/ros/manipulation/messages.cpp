@@ -118,14 +118,14 @@ TaskState to_message(const std::vector<assembly::Placement>& placements, const a
   return message;
 }
 
-Accepted to_message(const hand_input::Accepted& accepted) {
+Accepted to_message(const hand_input::AcceptedInput& accepted) {
   Accepted message;
   message.kind = static_cast<uint8_t>(accepted.kind);
   message.stylus = static_cast<uint8_t>(accepted.hand + 1);
   message.time = accepted.t;
   message.committed = accepted.committed;
   Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.stylus_pose.data()) = accepted.X_WS.affine();
-  if (accepted.kind == hand_input::Accepted::Kind::external_wrench) {
+  if (accepted.kind == hand_input::AcceptedInput::Kind::external_wrench) {
     const Vector6d wrench = to_vector(accepted.wrench.wrench);
     message.wrench.assign(wrench.data(), wrench.data() + wrench.size());
     message.wrench_axes = static_cast<uint8_t>(accepted.wrench.axes);
@@ -138,7 +138,7 @@ Change to_message(const live::Change& change) {
   message.what = change.what;
   message.command = change.command.words();
   message.scene = change.scene;
-  message.hash_before = simulation::to_hex(change.hash_before);
+  message.hash_before = math::to_hex(change.hash_before);
   if (change.state != simulation::SimulationState()) message.state = serialise(change.state);
   return message;
 }
@@ -153,7 +153,7 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.local_error_bound = report.local_error_bound.value_or(none);
   message.error_bound = report.error_bound.value_or(none);
   message.angle_error_bound = report.angle_error_bound.value_or(none);
-  message.steps_unbounded = static_cast<uint32_t>(report.steps_unbounded);
+  message.integrations_without_bound = static_cast<uint32_t>(report.integrations_without_bound);
   message.energy_balance = report.energy_balance;
   message.stiffest_omega_dt = report.stiffest_omega_dt;
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);

@@ -20,7 +20,7 @@ ObjectState to_message(const bodies::BodyState& object);
 ForkState to_message(const tools::ToolState& tool, double fork_diameter);
 TaskState to_message(const std::vector<assembly::Placement>& placements, const assembly::TaskScore& score);
 Contacts to_message(const std::vector<contact::ContactState>& contacts);
-Accepted to_message(const hand_input::Accepted& accepted);
+Accepted to_message(const hand_input::AcceptedInput& accepted);
 Change to_message(const live::Change& change);
 /// Fills in everything except the cycle's times, `integrator` and `deadline_missed`, which the core does not know.
 StepReport to_message(const simulation::AdvanceReport& report);

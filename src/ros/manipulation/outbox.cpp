@@ -21,19 +21,19 @@ Outbox::~Outbox() {
   thread_.join();
 }
 
-bool Outbox::Repeat::due(const live::Moment& moment) {
-  const ros::Time new_stamp = ros_common::stamp_of(moment.began ? std::make_optional(moment.stamp) : std::nullopt);
+bool Outbox::Repeat::due(const live::Progress& progress) {
+  const ros::Time new_stamp = ros_common::stamp_of(progress.began ? std::make_optional(progress.stamp) : std::nullopt);
   const double steady = ros_common::steady_time();
   // Before the first sample the stamp advances by itself.
-  const bool same = moment.revision == revision && (new_stamp == stamp || !moment.began);
+  const bool same = progress.revision == revision && (new_stamp == stamp || !progress.began);
   if (same && steady < sent + repeat_after) return false;
-  *this = {new_stamp, moment.revision, steady};
+  *this = {new_stamp, progress.revision, steady};
   return true;
 }
 
 void Outbox::take_shown(double latency, const hand_input::LocalTime& now) {
   std::optional<live::Shown> shown =
-      runner_.show(latency, now, [this](const live::Moment& moment) { return shown_due_.due(moment); });
+      runner_.show(latency, now, [this](const live::Progress& progress) { return shown_due_.due(progress); });
   if (!shown) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -43,8 +43,8 @@ void Outbox::take_shown(double latency, const hand_input::LocalTime& now) {
 }
 
 bool Outbox::take_committed(const live::CycleReport& report, double deadline) {
-  std::optional<live::Committed> committed = runner_.committed([this](const live::Moment& moment) {
-    return (moment.began || !moment.has_sample) && committed_due_.due(moment);
+  std::optional<live::Committed> committed = runner_.committed([this](const live::Progress& progress) {
+    return (progress.began || !progress.has_sample) && committed_due_.due(progress);
   });
   if (!committed) return false;
   std::unique_lock<std::mutex> lock(mutex_);

@@ -49,7 +49,7 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
       message.committed = entry.committed;
       publisher.publish(message);
     };
-    const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
+    const auto* accepted = std::get_if<hand_input::AcceptedInput>(&entry.what);
     if (accepted != nullptr) send(to_message(*accepted), accepted_publisher_);
     if (accepted == nullptr) send(to_message(std::get<live::Change>(entry.what)), changes_publisher_);
   }

@@ -136,7 +136,7 @@ void edit_object(live::SimulationRunner& runner, const std::vector<std::string>&
 
 void save_scene(live::SimulationRunner& runner, const std::vector<std::string>& roots,
                 const SaveScene::Request& request, SaveScene::Response& response) {
-  const scene::Scene scene = runner.committed([](const live::Moment&) { return true; })->view.present_scene();
+  const scene::Scene scene = runner.committed([](const live::Progress&) { return true; })->view.present_scene();
   response.message = "wrote " + scene::save_scene(scene, request.path, roots) + " and the YAML file next to it";
 }
 

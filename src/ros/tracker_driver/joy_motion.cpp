@@ -78,7 +78,7 @@ const RigidTransform& JoyMotion::advance(double dt) {
   if (age_ > timeout) return X_WB_;
   const Vector3d p = X_WB_.translation() + dt * V_WB_W_.linear;
   const Quaterniond q(math::exp_so3(dt * V_WB_W_.angular) * X_WB_.linear());
-  X_WB_ = make_transform(q, p.cwiseMax(-reach).cwiseMin(reach));
+  X_WB_ = make_transform(p.cwiseMax(-reach).cwiseMin(reach), q);
   return X_WB_;
 }
 

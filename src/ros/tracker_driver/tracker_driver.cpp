@@ -114,7 +114,7 @@ class TrackerDriver {
   /// Returns the device; null if the source is a motion.
   std::unique_ptr<motion::LiveSource> open_device(const ros::NodeHandle& node,
                                                   const ros::NodeHandle& private_node) const {
-    const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
+    const RigidTransform above = make_transform(Vector3d(0.0, 0.0, 0.4), Quaterniond(0.0, 1.0, 0.0, 0.0));
     const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
     if (parameters_.source == "fastrak") return std::make_unique<fastrak::FastrakSource>(parameters_.fastrak);
     if (parameters_.source == "joy") return make_joy_source(node, parameters_.joy, X_WB);
@@ -130,7 +130,7 @@ class TrackerDriver {
     for (std::size_t head = 0; head < std::max<std::size_t>(parameters_.head_stations.size(), 1); ++head) {
       for (const auto& [name, side] : {std::pair("eye_left", 0.5), std::pair("eye_right", -0.5)}) {
         const Vector3d p(0.0, side * parameters_.interpupillary_distance, 0.0);
-        eyes.push_back(ros_common::to_transform(make_transform(Quaterniond::Identity(), p), head_frame(head),
+        eyes.push_back(ros_common::to_transform(make_transform(p, Quaterniond::Identity()), head_frame(head),
                                                 name + ros_common::hand_suffix(head), ros::Time::now()));
       }
     }
@@ -221,7 +221,7 @@ class TrackerDriver {
     }
     const ros::Time stamp = ros_common::ros_time(t);
     std::vector<geometry_msgs::TransformStamped> transforms{
-        transform_of(sample.station, make_transform(sample.q_TS, sample.p_TS), stamp)};
+        transform_of(sample.station, make_transform(sample.p_TS, sample.q_TS), stamp)};
     if (sample.station == parameters_.fastrak.stations.front()) {
       if (parameters_.head_stations.empty()) {
         transforms.push_back(

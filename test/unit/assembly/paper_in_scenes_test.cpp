@@ -122,7 +122,7 @@ Counts run_open(const scene::Scene& scene, const Case& c, std::mt19937& random) 
   for (int k = 0; k * interval < duration + 0.1; ++k) {
     simulation.push_stylus({k * interval, pose(c.hand, k * interval, start, random)});
   }
-  const simulation::AdvanceReport report = simulation.advance(duration);
+  const simulation::AdvanceReport report = simulation.advance_to(duration);
   EXPECT_TRUE(object(simulation, body.name).X_WO.matrix().allFinite());
   EXPECT_LT(object(simulation, body.name).X_WO.translation().norm(), 10.0);
   EXPECT_EQ(simulation.tool().held_object, body.name);

@@ -54,9 +54,9 @@ class Assembly {
       p_ += way / samples;
       motion::PoseSample sample;
       sample.t = t_;
-      sample.X = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p_);
+      sample.X = make_transform(p_, Quaterniond(0.0, 1.0, 0.0, 0.0));
       simulation_.push_stylus(sample);
-      simulation_.advance(t_);
+      simulation_.advance_to(t_);
       monitor_.observe(simulation_);
       t_ += 0.02;
     }
@@ -199,10 +199,10 @@ TEST(TaskMonitor, EveryHandScores) {
       const double t = 0.02 * k, z = 0.25 + 0.1 * std::min(t, 1.0);
       for (std::size_t hand = 0; hand < 3; ++hand) {
         const double y = (same ? 0.02 : 0.3) * (hand == 2 ? -1.0 : static_cast<double>(hand));
-        simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, y, z))}, hand);
+        simulation.push_stylus({t, make_transform(Vector3d(0.0, y, z), Quaterniond(0.0, 1.0, 0.0, 0.0))}, hand);
         if (k == 1 || k == 100) simulation.push_button(t, k == 1, hand);
       }
-      simulation.advance(t);
+      simulation.advance_to(t);
       monitor.observe(simulation);
     }
     EXPECT_EQ(monitor.score().grasps, 3) << same;

@@ -37,7 +37,7 @@ TEST(Changes, AreThoseSinceAnyMoment) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     Model model;
-    std::vector<std::pair<Changes::Moment, std::uint64_t>> moments{{{}, 0}, {model.changes.now(), 0}};
+    std::vector<std::pair<Changes::Revision, std::uint64_t>> moments{{{}, 0}, {model.changes.now(), 0}};
     EXPECT_TRUE(model.changes.since({}).empty());
     for (int k = 0; k < 100; ++k) {
       if (k % 40 == 0) model.reset(random() % 30);
@@ -69,7 +69,7 @@ TEST(Changes, ThatDifferAreThoseHereAndThere) {
       }
       EXPECT_EQ(here.changes.differing(there.changes), must) << "seed " << seed << ", " << k;
       if (random() % 5 != 0) continue;
-      here.changes.followed(there.changes);
+      here.changes.mark_equal_to(there.changes);
       differs.assign(objects, false);
     }
   }

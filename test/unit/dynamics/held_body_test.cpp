@@ -18,21 +18,21 @@ namespace {
 motion::MotionSegment moving_hand(double duration) {
   motion::PoseSample a, b;
   b.t = duration;
-  b.X = make_transform(Quaterniond(math::exp_so3(Vector3d(0.3, -0.2, 0.5))), Vector3d(0.1, 0.05, -0.08));
+  b.X = make_transform(Vector3d(0.1, 0.05, -0.08), Quaterniond(math::exp_so3(Vector3d(0.3, -0.2, 0.5))));
   return motion::MotionSegment(a, Vector3d(0.5, 0.0, -0.3), Vector3d(1.0, 0.5, -2.0), b, Vector3d(-0.2, 0.4, 0.1),
                                Vector3d(0.3, 1.0, 0.5));
 }
 
 RigidTransform hanging() {
   // The fork's axis down.
-  return make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 1.0));
+  return make_transform(Vector3d(0.0, 0.0, 1.0), Quaterniond(0.0, 1.0, 0.0, 0.0));
 }
 
 BodyInertia box_off_centre() {
   BodyInertia body;
   body.mass = 1.2;
   body.inertia_O = Vector3d(0.004, 0.006, 0.005).asDiagonal();
-  body.X_OE = make_transform(Quaterniond(math::exp_so3(Vector3d(0.2, 0.1, 0.3))), Vector3d(0.03, 0.02, -0.05));
+  body.X_OE = make_transform(Vector3d(0.03, 0.02, -0.05), Quaterniond(math::exp_so3(Vector3d(0.2, 0.1, 0.3))));
   return body;
 }
 
@@ -71,7 +71,7 @@ TEST(HeldBody, HangingObjectSagsByItsWeightOverTheStiffness) {
   for (const char* name : {"exponential", "paper"}) {
     BodyInertia body = box_off_centre();
     body.mass = 1.0;
-    body.X_OE = make_transform(Quaterniond::Identity(), Vector3d(0.0, 0.0, -0.05));
+    body.X_OE = make_transform(Vector3d(0.0, 0.0, -0.05), Quaterniond::Identity());
     HeldBody held = held_by("linear", {2000.0, 500.0, 5.0}, {1.0, 1.0, 1.0}, body);
     StrainState s = held.zero_state();
     const motion::MotionSegment hand(hanging());
@@ -205,7 +205,7 @@ std::vector<BodyInertia> grasps_of_long_box(double mass) {
       const Vector3d squares = half.cwiseAbs2();
       const Vector3d moments = mass / 3.0 * (squares.sum() - squares.array());
       grasps.push_back(
-          {mass, moments.asDiagonal(), make_transform(Quaterniond(math::exp_so3(turn)), at.cwiseProduct(half))});
+          {mass, moments.asDiagonal(), make_transform(at.cwiseProduct(half), Quaterniond(math::exp_so3(turn)))});
     }
   }
   return grasps;
@@ -317,7 +317,7 @@ TEST(HeldBody, EnergyChangesByTheWorkThatIsTold) {
           const Matrix3d I_W = o.X.linear() * held.body().inertia_O * o.X.linear().transpose();
           expected[k] = held.elastic_energy(times[k], state) + held.kinetic_energy(o.velocity, o.X.linear()) +
                         held.body().mass * held.gravity() * r.z() - p.dot(h_k.v_WH_W) -
-                        (I_W * o.velocity.angular + r.cross(p)).dot(h_k.X_WH.linear() * h_k.angular_velocity);
+                        (I_W * o.velocity.angular + r.cross(p)).dot(h_k.X_WH.linear() * h_k.w_WH_H);
         }
         const EnergyBalance balance = held.energy_balance(held.forcing(hand, times), q, q_dot);
         const double scale = std::abs(expected[0]) + std::abs(balance.power[0]) * h;
@@ -423,7 +423,7 @@ TEST(HeldBody, SwitchingOffWhileStrainedKeepsPoseAndTwistAndEndsAtZero) {
   double t = 0.0;
   for (; t < 0.2; t += 0.01) integrator->step(held, hand, t, 0.01, s);
   const motion::MotionState before = held.object(held.forcing(hand, t), s);
-  const double torsion = held.shape().twist(held.full_state(t, s).q);
+  const double torsion = held.shape().torsion_angle(held.full_state(t, s).q);
   ASSERT_GT(std::abs(torsion), 1e-4);
   s = held.set_dofs({true, true, false}, t, 0.01, held.full_state(t, s));
   EXPECT_EQ(held.size(), 5);
@@ -436,7 +436,7 @@ TEST(HeldBody, SwitchingOffWhileStrainedKeepsPoseAndTwistAndEndsAtZero) {
     held.drop_finished_returns(t + 0.01);
   }
   EXPECT_FALSE(held.returning());
-  EXPECT_EQ(held.shape().twist(held.full_state(t, s).q), 0.0);
+  EXPECT_EQ(held.shape().torsion_angle(held.full_state(t, s).q), 0.0);
 }
 
 TEST(Exponential, StaysBoundedAtEveryStiffnessAndStep) {

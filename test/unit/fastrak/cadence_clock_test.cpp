@@ -197,7 +197,7 @@ TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
       ++sent;
       if (!hand_input::usable(gate.offer(sample))) continue;
       const double before = track.empty() ? sample.t : track.end();
-      used += track.push({sample.t, make_transform(sample.q, sample.p)});
+      used += track.push({sample.t, make_transform(sample.p, sample.q)});
       if (track.begin() < before) {
         for (int i = 0; i <= 20; ++i) {
           const double t = before - 1e-9 + 0.05 * i * (sample.t - before);

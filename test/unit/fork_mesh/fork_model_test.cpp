@@ -125,7 +125,7 @@ TEST_F(DeformedFork, MiddleProngPointsWhereTheSimulatedTipPoints) {
     deform();
     rod::TipKinematics tip;
     shape_->tip(q_, rod::StrainVector::Zero(6), tip);
-    const RigidTransform X_WE = X_WH_ * make_transform(Quaterniond(tip.R_HE), tip.p_HE);
+    const RigidTransform X_WE = X_WH_ * make_transform(tip.p_HE, Quaterniond(tip.R_HE));
     const Vector3d point = X_WE * Vector3d(0.0, 0.0, fine().prong_length * diameter);
     double nearest = 1.0;
     for (const Vector3d& p : mesh_.vertices) nearest = std::min(nearest, (p - point).norm());

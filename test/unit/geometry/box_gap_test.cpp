@@ -14,7 +14,7 @@ class Outlines : public ::testing::Test {
   Vector3d in_cube() { return Vector3d(unit_(random_), unit_(random_), unit_(random_)); }
   OutlineBox any_box(double spread) {
     OutlineBox box;
-    box.X = make_transform(Quaterniond(math::exp_so3(3.0 * in_cube())), spread * in_cube());
+    box.X = make_transform(spread * in_cube(), Quaterniond(math::exp_so3(3.0 * in_cube())));
     box.half = Vector3d::Constant(0.01) + 0.5 * in_cube().cwiseAbs();
     return box;
   }

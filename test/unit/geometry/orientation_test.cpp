@@ -64,7 +64,7 @@ TEST(Orientation, ACavityStaysOneAndAShuffledPartBesideItIsTurned) {
   add(mesh, *test_support::box_mesh(size));
   add(mesh, *test_support::box_mesh(0.5 * size), true);
   const std::size_t beside = mesh.triangles.size();
-  add(mesh, *test_support::box_mesh(size, make_transform(Quaterniond::Identity(), Vector3d(1.0, 0.0, 0.0))));
+  add(mesh, *test_support::box_mesh(size, make_transform(Vector3d(1.0, 0.0, 0.0), Quaterniond::Identity())));
   const TriangleMesh good = mesh;
   mesh = shuffled(mesh, 1, beside);
   for (std::size_t t = 0; t < beside; ++t) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);  // inside out

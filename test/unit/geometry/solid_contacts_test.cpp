@@ -63,8 +63,8 @@ TEST(Solids, BoxesTouchAsDeepAsTheyAre) {
   for (int i = 0; i < 1000; ++i) {
     const Vector3d half_a = Vector3d::Constant(0.02) + 0.05 * in_cube().cwiseAbs();
     const Vector3d half_b = Vector3d::Constant(0.02) + 0.05 * in_cube().cwiseAbs();
-    OutlineBox a{make_transform(Quaterniond(math::exp_so3(3.0 * in_cube())), 0.05 * in_cube()), half_a, true};
-    const OutlineBox b{make_transform(Quaterniond(math::exp_so3(3.0 * in_cube())), 0.05 * in_cube()), half_b, true};
+    OutlineBox a{make_transform(0.05 * in_cube(), Quaterniond(math::exp_so3(3.0 * in_cube()))), half_a, true};
+    const OutlineBox b{make_transform(0.05 * in_cube(), Quaterniond(math::exp_so3(3.0 * in_cube()))), half_b, true};
     BoxGap gap = gap_between(a, b);
     a.X.translation() += (-2e-5 - gap.gap) * gap.n_W;
     gap = gap_between(a, b);
@@ -79,7 +79,7 @@ TEST(Solids, BoxesTouchAsDeepAsTheyAre) {
 
 TEST(Solids, FlushFacesTouchWithTheirCornersOnce) {
   for (const double y : {0.02, 0.03, -0.03}) {  // also where a corner is over a seam
-    const RigidTransform above = make_transform(Quaterniond::Identity(), Vector3d(0.03, y, 0.1 + 1e-5));
+    const RigidTransform above = make_transform(Vector3d(0.03, y, 0.1 + 1e-5), Quaterniond::Identity());
     const auto contacts = solid_contacts(cube, above, cube, RigidTransform::Identity(), 1e-4, 1e-3);
     EXPECT_EQ(contacts.size(), 4U) << y;
     for (const BoxContact& c : contacts) {
@@ -96,7 +96,7 @@ TEST(Solids, ACornerThatIsDeepInAGrooveTouchesBothFlanks) {
   const Quaterniond corner_first = Quaterniond::FromTwoVectors(Vector3d(-1.0, -1.0, -1.0), -groove);
   for (const double depth : {-1e-6, 1e-8, 1e-6, 4e-5}) {
     const double from_corner = 0.05 * std::sqrt(3.0) - depth;
-    const RigidTransform X = make_transform(corner_first, groove + from_corner * groove.normalized());
+    const RigidTransform X = make_transform(groove + from_corner * groove.normalized(), corner_first);
     const auto contacts = solid_contacts(cube, X, Solid(star()), RigidTransform::Identity(), 1e-5, 1e-3);
     EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(),
                             [&](const BoxContact& c) {
@@ -110,13 +110,13 @@ TEST(Solids, ACornerThatIsDeepInAGrooveTouchesBothFlanks) {
 
 TEST(Solids, ThroughAThinPlateNothingIsFelt) {
   const Solid plate{Box{{0.3, 0.3, 5e-4}}};
-  const RigidTransform above = make_transform(Quaterniond::Identity(), Vector3d(0.0, 0.0, 0.05 + 2.5e-4 + 1e-4));
+  const RigidTransform above = make_transform(Vector3d(0.0, 0.0, 0.05 + 2.5e-4 + 1e-4), Quaterniond::Identity());
   const auto contacts = solid_contacts(cube, above, plate, RigidTransform::Identity(), 1e-3, 1e-3);
   EXPECT_EQ(contacts.size(), 4U);
   for (const BoxContact& c : contacts) EXPECT_NEAR(c.gap, 1e-4, 1e-12);
 }
 
-RigidTransform at(double x, double y, double z) { return make_transform(Quaterniond::Identity(), Vector3d(x, y, z)); }
+RigidTransform at(double x, double y, double z) { return make_transform(Vector3d(x, y, z), Quaterniond::Identity()); }
 
 TEST(Solids, OverlapHoweverTheyMeet) {
   const RigidTransform here = RigidTransform::Identity();
@@ -129,7 +129,7 @@ TEST(Solids, OverlapHoweverTheyMeet) {
     bool expected;
   };
   const RigidTransform flat =
-      make_transform(Quaterniond(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitY())), Vector3d(0.0, 0.0, 0.01));
+      make_transform(Vector3d(0.0, 0.0, 0.01), Quaterniond(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitY())));
   const std::vector<Case> cases{{bar, across, at(0.0, 0.0, 0.005), true},  // edges alone
                                 {bar, across, at(0.0, 0.0, 0.011), false},
                                 {small, cube, at(0.01, 0.02, 0.0), true},  // as a whole
@@ -177,7 +177,7 @@ TEST(Solids, ACylinderTouchesWithSideAndRims) {
   for (const double turned : {0.0, 0.1, 1.0}) {  // about its axis, which lies along x
     const Quaterniond lying(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitY()) *
                             Eigen::AngleAxisd(turned, Vector3d::UnitZ()));
-    const RigidTransform X = make_transform(lying, Vector3d(0.0, 0.0, 0.05 + 0.02 - 1e-5));
+    const RigidTransform X = make_transform(Vector3d(0.0, 0.0, 0.05 + 0.02 - 1e-5), lying);
     for (const bool first : {true, false}) {
       const auto contacts = first ? solid_contacts(cylinder, X, cube, RigidTransform::Identity(), 1e-5, 1e-3)
                                   : solid_contacts(cube, RigidTransform::Identity(), cylinder, X, 1e-5, 1e-3);
@@ -193,7 +193,7 @@ TEST(Solids, ACylinderTouchesWithSideAndRims) {
   const Quaterniond across(Eigen::AngleAxisd(0.25 * M_PI, Vector3d::UnitY()));
   const Vector3d middle = (0.05 * std::sqrt(2.0) + 0.02 + 1e-6) * Vector3d(1.0, 0.0, 1.0).normalized();
   const RigidTransform X =
-      make_transform(across * Quaterniond(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitY())), middle);
+      make_transform(middle, across * Quaterniond(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitY())));
   const auto contacts = solid_contacts(cube, RigidTransform::Identity(), cylinder, X, 1e-5, 1e-3);
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_NEAR(contacts[0].gap, 1e-6, 1e-12);

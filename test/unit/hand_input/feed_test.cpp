@@ -90,8 +90,8 @@ TEST(Feed, OnlyOneThatPredictsGivesACopySamples) {
   simulation::Simulation simulations[] = {make_simulation(), make_simulation()};
   Feed without(simulations[0], InputSettings()), with(simulations[1], InputSettings(), Feed::Prediction::on);
   motion::PosePredictor predictor;
-  with.record([&](const Accepted& accepted) {
-    if (accepted.kind == Accepted::Kind::pose) predictor.push({accepted.t, accepted.X_WS});
+  with.record([&](const AcceptedInput& accepted) {
+    if (accepted.kind == AcceptedInput::Kind::pose) predictor.push({accepted.t, accepted.X_WS});
   });
   for (const motion::PoseSample& sample : shaking_hand()) {
     if (sample.t > 1.99) break;  // before it is lost
@@ -100,7 +100,7 @@ TEST(Feed, OnlyOneThatPredictsGivesACopySamples) {
       feed->advance_to(sample.t - 2.0 * kInterval);
     }
     simulation::Simulation copies[] = {make_simulation(), make_simulation(), make_simulation()};
-    for (simulation::Simulation& copy : copies) copy.follow(simulations[1]);
+    for (simulation::Simulation& copy : copies) copy.copy_state_from(simulations[1]);
     with.predict(sample.t + 0.03, copies[0]);
     for (const motion::PoseSample& next : predictor.continuation(sample.t + 0.03)) copies[1].push_stylus(next);
     EXPECT_EQ(copies[0].state_hash(), copies[1].state_hash());
@@ -121,14 +121,14 @@ TEST(Feed, APoseOfAMotionReachesTheSimulationToTheBit) {
   feed.push_button(0.0, true);
   pushed.push_button(0.0, true);
   feed.advance_to(1.9);
-  pushed.advance(1.9);
+  pushed.advance_to(1.9);
   EXPECT_TRUE(fed.objects()[0].held);
   expect_same_objects(fed, pushed);
 }
 
 /// Raw samples in the frame of a rotated tracker are equivalent to the poses in world.
 TEST(Feed, RawSamplesInATrackersFrameAreThePosesInWorld) {
-  const RigidTransform X_WP = make_transform(Quaterniond(0.8, 0.0, 0.6, 0.0), Vector3d(0.3, -0.2, 0.1));
+  const RigidTransform X_WP = make_transform(Vector3d(0.3, -0.2, 0.1), Quaterniond(0.8, 0.0, 0.6, 0.0));
   simulation::Simulation a = make_simulation(), b = make_simulation();
   Feed poses(a, InputSettings()), raw(b, InputSettings());
   for (const motion::PoseSample& sample : shaking_hand()) {

@@ -22,7 +22,7 @@ TEST(Reacquisition, AHandThatIsNeverLostIsFollowedToTheBit) {
   srand(1);
   Reacquisition hand{InputSettings()};
   for (int k = 0; k < 100; ++k) {
-    const motion::PoseSample sample{kInterval * k, make_transform(Quaterniond::UnitRandom(), Vector3d::Random())};
+    const motion::PoseSample sample{kInterval * k, make_transform(Vector3d::Random(), Quaterniond::UnitRandom())};
     const auto followed = hand.follow(sample, k == 0, kNever);
     ASSERT_EQ(followed.size(), 1u);
     EXPECT_EQ(followed[0].t, sample.t);
@@ -50,10 +50,10 @@ TEST(Reacquisition, SetsOutWhereItWasHeldAtRestWithinTheSpeedsAndArrivesExactly)
     settings.reacquisition_speed = 0.4;
     settings.reacquisition_turn_rate = 1.5;
     Reacquisition hand(settings);
-    const motion::PoseSample held{0.0, make_transform(Quaterniond::UnitRandom(), Vector3d::Random())};
+    const motion::PoseSample held{0.0, make_transform(Vector3d::Random(), Quaterniond::UnitRandom())};
     hand.follow(held, true, kNever);
     const double v = 0.3, w = 2.0;  // of the hand that is back
-    EvenHand back{make_transform(Quaterniond::UnitRandom(), 2.0 * Vector3d::Random()),
+    EvenHand back{make_transform(2.0 * Vector3d::Random(), Quaterniond::UnitRandom()),
                   v * Vector3d::Random().normalized(), w * Vector3d::Random().normalized()};
     RigidTransform before = held.X;
     bool arrived = false;
@@ -83,8 +83,8 @@ TEST(Reacquisition, ComesInOverItsRampAndArrivesWithItsTimeConstant) {
     const double speed = turns ? settings.reacquisition_turn_rate : settings.reacquisition_speed;
     Reacquisition hand(settings);
     hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
-    const RigidTransform goal = turns ? make_transform(Quaterniond(math::exp_so3(Vector3d(0, 0, 1))), Vector3d::Zero())
-                                      : make_transform(Quaterniond::Identity(), Vector3d(1, 0, 0));
+    const RigidTransform goal = turns ? make_transform(Vector3d::Zero(), Quaterniond(math::exp_so3(Vector3d(0, 0, 1))))
+                                      : make_transform(Vector3d(1, 0, 0), Quaterniond::Identity());
     const auto left = [&](const RigidTransform& X) { return turns ? angle(X, goal) : distance(X, goal); };
     double before = 1.0, nearest = 1.0, entered = 0.0;
     bool ramp_seen = false, tail_seen = false;
@@ -114,7 +114,7 @@ TEST(Reacquisition, TheFirstStepIsOfThirdOrder) {  // at rest, and without a kic
   for (const double h : {0.02, 0.01, 0.005}) {
     Reacquisition hand{InputSettings()};
     hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
-    const motion::PoseSample elsewhere{1.0, make_transform(Quaterniond::Identity(), Vector3d(1, 0, 0))};
+    const motion::PoseSample elsewhere{1.0, make_transform(Vector3d(1, 0, 0), Quaterniond::Identity())};
     hand.follow(elsewhere, true, kNever);
     const double moved = hand.follow({1.0 + h, elsewhere.X}, false, kNever)[0].X.translation().x();
     if (last > 0.0) {
@@ -130,7 +130,7 @@ TEST(Reacquisition, SamplesWhoseTimeIsSimulatedComeTooLate) {
   hand.follow({0.0, X}, true, kNever);
   hand.follow({0.1, X}, false, 0.0);
   for (const double t : {0.2, 0.5, 1.9, 2.0}) EXPECT_TRUE(hand.follow({t, X}, false, 2.0).empty());
-  const auto followed = hand.follow({2.1, make_transform(Quaterniond::Identity(), Vector3d(1, 2, 3))}, false, 2.0);
+  const auto followed = hand.follow({2.1, make_transform(Vector3d(1, 2, 3), Quaterniond::Identity())}, false, 2.0);
   ASSERT_EQ(followed.size(), 2u);
   EXPECT_EQ(followed[0].t, 2.0);
   EXPECT_EQ(followed[1].t, 2.1);
@@ -173,7 +173,7 @@ TEST(Reacquisition, MoreThanOneTurnAwayIsCaughtUpWithoutAJump) {
   InputSettings settings;
   Reacquisition hand(settings);
   hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
-  EvenHand back{make_transform(Quaterniond::Identity(), Vector3d(3, 0, 0)), Vector3d::Zero(), Vector3d(0, 0, 3.0)};
+  EvenHand back{make_transform(Vector3d(3, 0, 0), Quaterniond::Identity()), Vector3d::Zero(), Vector3d(0, 0, 3.0)};
   RigidTransform before = RigidTransform::Identity();
   int steps = 0;
   do {

@@ -215,7 +215,7 @@ TEST(PoseFilter, OpensWithTheLowPassedSpeed) {
   settings.beta = 20.0;
   PoseFilter filter(settings);
   filter.filter({0.0, RigidTransform::Identity()});
-  const motion::PoseSample step{dt, make_transform(Quaterniond::Identity(), Vector3d(v * dt, 0, 0))};
+  const motion::PoseSample step{dt, make_transform(Vector3d(v * dt, 0, 0), Quaterniond::Identity())};
   const double share = filter.filter(step).X.translation().x() / (v * dt);
   EXPECT_NEAR(share, weight(1.0 + 20.0 * weight(8.0) * v), 1e-12);
 }
@@ -261,7 +261,7 @@ TEST(SampleGate, AnyRubbishGivesFiniteRotationsBehindGateAndSmoothing) {
     if (!usable(result)) continue;
     ++used;
     if (result == GateResult::relocation) smoothing.restart();
-    const RigidTransform X = smoothing.filter({raw.t, make_transform(raw.q, raw.p)}).X;
+    const RigidTransform X = smoothing.filter({raw.t, make_transform(raw.p, raw.q)}).X;
     ASSERT_TRUE(X.matrix().allFinite());
     const Matrix3d R = X.linear();
     ASSERT_LT((R.transpose() * R - Matrix3d::Identity()).norm(), 1e-12);

@@ -44,7 +44,7 @@ struct Session {
     Command command;
     command.kind = Command::Kind::edit;
     command.edit.name = "box";
-    command.edit.X_WL = make_transform(Quaterniond::Identity(), Vector3d(x, 0.0, 0.02));
+    command.edit.X_WL = make_transform(Vector3d(x, 0.0, 0.02), Quaterniond::Identity());
     runner->change("edit_object", command);
   }
   Vector3d place() const {

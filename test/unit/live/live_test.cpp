@@ -380,8 +380,8 @@ TEST(Journal, ReplayedComesToTheSameBits) {
     EXPECT_GT(stops, 200);
     EXPECT_GT(timeouts, 1);
     const auto is_wrench = [](const Entry& entry) {
-      const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
-      return accepted != nullptr && accepted->kind == hand_input::Accepted::Kind::external_wrench;
+      const auto* accepted = std::get_if<hand_input::AcceptedInput>(&entry.what);
+      return accepted != nullptr && accepted->kind == hand_input::AcceptedInput::Kind::external_wrench;
     };
     EXPECT_GT(std::count_if(journal.begin(), journal.end(), is_wrench), 100);
     EXPECT_GT(replayer.changes().repeated, 5u);
@@ -522,7 +522,7 @@ TEST(Journal, AMissingEntryAndAnotherStateAreRefused) {
   short_of_one.erase(short_of_one.begin() + 20);
   EXPECT_THROW(play(short_of_one), validation::InputError);
   for (Entry& entry : journal) {
-    auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
+    auto* accepted = std::get_if<hand_input::AcceptedInput>(&entry.what);
     if (accepted != nullptr && entry.index == 20) accepted->X_WS.translation().x() += 1e-12;
   }
   EXPECT_THROW(play(journal), validation::InputError);

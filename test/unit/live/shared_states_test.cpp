@@ -52,16 +52,16 @@ TEST(SharedStates, AreThoseOfTheSimulationAndShareWhatStays) {
       if (k == 160) simulation.restore(first);
       simulation.push_stylus({t, pointing_down(p)});
       if (k % 80 == 20 || k % 80 == 60) simulation.push_button(t, k % 80 == 20);
-      simulation.advance(t);
+      simulation.advance_to(t);
       const SharedStates before = states;
       states.follow(simulation);
       expect_same(states, simulation);
       for (std::size_t part = 0; part < states.parts().size(); ++part) shared += states.shares(part, before) ? 1 : 0;
       parts += states.parts().size();
-      copy.follow(simulation);
+      copy.copy_state_from(simulation);
       ASSERT_TRUE(copy.save() == simulation.save()) << k;
       copy.push_button(t, k % 7 < 3);
-      copy.advance(t + 0.03);
+      copy.advance_to(t + 0.03);
       copied.follow(copy);
       expect_same(copied, copy);
     }

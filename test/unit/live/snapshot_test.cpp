@@ -112,11 +112,11 @@ TEST(Snapshot, ACopyThatFollowsHasTheWholeState) {
       committed.push_stylus({t, pointing_down(p)});
       if (k == 1 || k == 150) committed.push_button(t, k == 1);
       if (k == 200) committed.edit({simulation::ObjectEdit::Action::remove, "other", "", std::nullopt});
-      committed.advance(t);
-      copy.follow(committed);
+      committed.advance_to(t);
+      copy.copy_state_from(committed);
       EXPECT_TRUE(copy.save() == committed.save()) << k;
       copy.push_button(t, k % 7 < 3);
-      copy.advance(t + 0.03);
+      copy.advance_to(t + 0.03);
     }
   }
 }
@@ -139,13 +139,13 @@ TEST(Snapshot, IsMadeWhereItIsWanted) {
   SimulationRunner runner(boxes(scene::ContactMode::none), simulation::SimulationSettings(),
                           hand_input::InputSettings(), false);
   runner.cycle(hand(0), {0.0, 0.0});
-  const auto never = [](const Moment&) { return false; };
+  const auto never = [](const Progress&) { return false; };
   EXPECT_FALSE(runner.committed(never));
   EXPECT_FALSE(runner.show(0.0, {0.0, 0.0}, never));
-  const Moment at = runner.committed(always)->at;
+  const Progress at = runner.committed(always)->at;
   EXPECT_TRUE(at.has_sample);
   runner.restart();
-  EXPECT_TRUE(runner.committed([&](const Moment& moment) { return moment.revision > at.revision; }));
+  EXPECT_TRUE(runner.committed([&](const Progress& progress) { return progress.revision > at.revision; }));
 }
 
 }  // namespace

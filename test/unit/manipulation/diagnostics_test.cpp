@@ -78,7 +78,7 @@ TEST(ManipulationDiagnostics, CountOverTheWholeRun) {
   cycle.steps_blocked = 5;
   cycle.steps_unsolved = 6;
   cycle.steps_rejected = 7;
-  cycle.steps_unbounded = 8;
+  cycle.integrations_without_bound = 8;
   cycle.collision_queries = 9;
   for (int k = 0; k < 2; ++k) loop.advance.add(cycle);
   std::map<std::string, std::string> said;
@@ -87,7 +87,7 @@ TEST(ManipulationDiagnostics, CountOverTheWholeRun) {
   for (const diagnostic_msgs::KeyValue& value : values) said[value.key] = value.value;
   int expected = 0;
   for (const char* key : {"steps", "substeps", "stops", "steps_fallback", "steps_blocked", "steps_unsolved",
-                          "steps_rejected", "steps_unbounded", "collision_queries"}) {
+                          "steps_rejected", "integrations_without_bound", "collision_queries"}) {
     EXPECT_EQ(said[key], std::to_string(expected += 2)) << key;
   }
 }

@@ -36,7 +36,7 @@ class Story {
     const std::size_t what = random(12), any = random(std::max<std::size_t>(simulation_.objects().size(), 1));
     const bool none = simulation_.objects().empty();
     const std::string name = none ? "" : simulation_.objects()[any].name;
-    const auto pose = make_transform(Quaterniond::Identity(), {0.1 * static_cast<double>(random(10)), 0.0, 0.5});
+    const auto pose = make_transform({0.1 * static_cast<double>(random(10)), 0.0, 0.5}, Quaterniond::Identity());
     if (what == 0) begin();
     if (what == 1) simulation_.reset();
     if (what == 2) edit({Action::add, std::string(1 + random(20), 'b') + std::to_string(added_++), brick(), pose});
@@ -46,7 +46,7 @@ class Story {
     if (what < 6) return;
     t_ += 0.01;
     simulation_.push_stylus({t_, pointing_down({0.05 * std::sin(3.0 * t_), 0.0, 0.22})});
-    simulation_.advance(t_);
+    simulation_.advance_to(t_);
   }
   const simulation::Simulation& simulation() const { return simulation_; }
   std::size_t random(std::size_t below) { return random_() % below; }

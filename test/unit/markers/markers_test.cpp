@@ -34,10 +34,10 @@ class MarkersOfALift : public testing::Test {
 
   void go_to(double t_end) {
     for (; t_ <= t_end; t_ += 0.02) {
-      simulation_.push_stylus({t_, make_transform(Quaterniond(0, 1, 0, 0), Vector3d(0, 0, height(t_)))});
+      simulation_.push_stylus({t_, make_transform(Vector3d(0, 0, height(t_)), Quaterniond(0, 1, 0, 0))});
       if (!pressed_ && t_ > 1.5) simulation_.push_button(t_, pressed_ = true);
     }
-    simulation_.advance(simulation_.newest_sample());
+    simulation_.advance_to(simulation_.newest_sample_time());
   }
   MarkerArray build() {
     std_msgs::Header header;
@@ -183,8 +183,8 @@ TEST_F(MarkersOfALift, TheObjectThatTheTipIsInIsTranslucent) {
   EXPECT_NEAR(color().a, 0.5, 1e-6);
   EXPECT_EQ(color().g, own.g);
   simulation_.release();
-  simulation_.push_stylus({t_ + 0.1, make_transform(Quaterniond(0, 1, 0, 0), Vector3d(0, 0, 0.9))});
-  simulation_.advance(t_ + 0.1);
+  simulation_.push_stylus({t_ + 0.1, make_transform(Vector3d(0, 0, 0.9), Quaterniond(0, 1, 0, 0))});
+  simulation_.advance_to(t_ + 0.1);
   EXPECT_EQ(color().a, 1.0f);
 }
 
@@ -260,8 +260,8 @@ TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPosition) {
     settings.grasp.object = body.name;
     simulation::Simulation simulation(scene, settings);
     const Vector3d hand = body.X_WO.translation() + Vector3d(0, 0, 0.2);
-    for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
-    simulation.advance(4.0);
+    for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(hand, Quaterniond(0, 1, 0, 0))});
+    simulation.advance_to(4.0);
     const MarkerArray markers =
         MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
     const auto color = find(markers, "fork", 0)->color;
@@ -292,11 +292,11 @@ TEST(LoadScale, ATenthOfAKilogramIsSeenBesideThreeHundred) {
   settings.grasp.object = "one";
   simulation::Simulation simulation(scene, settings);
   const Vector3d hand = object(simulation, "one").X_WO.translation() + Vector3d(0, 0, 0.2);
-  for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
+  for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(hand, Quaterniond(0, 1, 0, 0))});
   const auto draw = [&] {
     return MarkerBuilder("rod", fork_mesh::default_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
   };
-  simulation.advance(4.0);
+  simulation.advance_to(4.0);
   const MarkerArray loaded = draw();
   simulation.release();
   const MarkerArray unloaded = draw();

@@ -13,7 +13,7 @@ TEST(RigidTransform, IsMadeFromAQuaternionOfAnyLength) {
     const RigidTransform X = random.pose(2.0);
     Quaterniond q(X.linear());
     q.coeffs() *= random.number(0.01, 100.0);
-    const RigidTransform made = make_transform(q, X.translation());
+    const RigidTransform made = make_transform(X.translation(), q);
     EXPECT_TRUE(made.isApprox(X, 1e-14));
     EXPECT_TRUE((made * made.inverse()).isApprox(RigidTransform::Identity(), 1e-14));
   }

@@ -14,7 +14,7 @@ constexpr double interval = 1.0 / 60.0, frame = 1.0 / 75.0;  // [s] of the track
 /// A head that moves and turns at constant rates.
 RigidTransform head_at(double t) {
   const Vector3d w(0.1, -0.2, 0.6), v(0.3, 0.1, -0.05);
-  return make_transform(Quaterniond(math::exp_so3(Vector3d(t * w))), Vector3d(v * t));
+  return make_transform(Vector3d(v * t), Quaterniond(math::exp_so3(Vector3d(t * w))));
 }
 
 double distance(const RigidTransform& a, const RigidTransform& b) {

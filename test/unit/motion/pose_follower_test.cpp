@@ -14,7 +14,7 @@ double angle(const RigidTransform& a, const RigidTransform& b) {
 }
 
 TEST(PoseFollower, StaysWithoutGoal) {
-  const RigidTransform start = make_transform(Quaterniond(1.0, 2.0, 3.0, 4.0), Vector3d(0.1, 0.2, 0.3));
+  const RigidTransform start = make_transform(Vector3d(0.1, 0.2, 0.3), Quaterniond(1.0, 2.0, 3.0, 4.0));
   PoseFollower follower(start);
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(follower.advance(0.02).isApprox(start, 1e-15));
 }
@@ -42,7 +42,7 @@ TEST(PoseFollower, ReachesEveryGoalWithoutOvershootAndNeverFasterThanAHand) {
 
 TEST(PoseFollower, NearAGoalThePathDoesNotDependOnTheSteps) {
   const RigidTransform goal =
-      make_transform(Quaterniond(math::exp_so3(Vector3d(0.01, 0.02, 0.0))), Vector3d(0.003, 0.0, 0.004));
+      make_transform(Vector3d(0.003, 0.0, 0.004), Quaterniond(math::exp_so3(Vector3d(0.01, 0.02, 0.0))));
   PoseFollower coarse(RigidTransform::Identity()), fine(RigidTransform::Identity());
   coarse.set_goal(goal);
   fine.set_goal(goal);

@@ -14,7 +14,7 @@ namespace spring_workbench::motion::pose_predictor_test {
 namespace {
 
 PoseSample at(double t, const Vector3d& p, double turned) {
-  return {t, make_transform(Quaterniond(math::exp_so3(Vector3d(0.0, turned, 0.0))), p)};
+  return {t, make_transform(p, Quaterniond(math::exp_so3(Vector3d(0.0, turned, 0.0))))};
 }
 
 const Vector3d v(0.3, -0.2, 0.1), a(2.0, 1.0, -3.0);

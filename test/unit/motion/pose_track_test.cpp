@@ -21,7 +21,7 @@ class Random {
   double number(double min, double max) { return std::uniform_real_distribution<double>(min, max)(engine_); }
   Vector3d vector(double size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
   RigidTransform pose() {
-    return make_transform(Quaterniond(number(-1, 1), number(-1, 1), number(-1, 1), number(1, 2)), vector(1.0));
+    return make_transform(vector(1.0), Quaterniond(number(-1, 1), number(-1, 1), number(-1, 1), number(1, 2)));
   }
 
  private:
@@ -149,7 +149,7 @@ TEST(MotionSegment, OfAnotherFrameIsTheMotionOfThatFrame) {
   Random random(8);
   for (int trial = 0; trial < 20; ++trial) {
     const PoseSample a{0.0, random.pose()};
-    const PoseSample b{0.02, a.X * make_transform(Quaterniond(math::exp_so3(random.vector(0.3))), random.vector(0.02))};
+    const PoseSample b{0.02, a.X * make_transform(random.vector(0.02), Quaterniond(math::exp_so3(random.vector(0.3))))};
     const MotionSegment of_B(a, random.vector(1.0), random.vector(5.0), b, random.vector(1.0), random.vector(5.0));
     const RigidTransform X_BC = random.pose(), X_CD = random.pose();
     const MotionSegment of_C = of_B.of_frame(X_BC);

@@ -18,13 +18,13 @@ Vector3d any(Random& random, double size) {
 }
 
 RigidTransform any_pose(Random& random, double angle) {
-  return make_transform(Quaterniond(math::exp_so3(any(random, angle))), any(random, 0.5));
+  return make_transform(any(random, 0.5), Quaterniond(math::exp_so3(any(random, angle))));
 }
 
 MotionSegment any_hand(Random& random) {
   const RigidTransform X = any_pose(random, 2.0);
   const PoseSample a{0.0, X},
-      b{0.02, X * make_transform(Quaterniond(math::exp_so3(any(random, 0.1))), any(random, 0.02))};
+      b{0.02, X * make_transform(any(random, 0.02), Quaterniond(math::exp_so3(any(random, 0.1))))};
   return MotionSegment(a, any(random, 1.0), any(random, 5.0), b, any(random, 1.0), any(random, 5.0));
 }
 

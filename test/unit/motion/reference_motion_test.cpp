@@ -30,7 +30,7 @@ std::vector<PoseSample> read_samples(const std::string& path) {
     std::istringstream in(line);
     double t, x, y, z, qx, qy, qz, qw;
     in >> t >> x >> y >> z >> qx >> qy >> qz >> qw;
-    samples.push_back({t, make_transform(Quaterniond(qw, qx, qy, qz), Vector3d(x, y, z))});
+    samples.push_back({t, make_transform(Vector3d(x, y, z), Quaterniond(qw, qx, qy, qz))});
   }
   return samples;
 }
@@ -46,7 +46,7 @@ std::vector<double> first_row(const std::string& path) {
   return row;
 }
 
-RigidTransform at(double x, double y, double z) { return make_transform(Quaterniond::Identity(), {x, y, z}); }
+RigidTransform at(double x, double y, double z) { return make_transform({x, y, z}, Quaterniond::Identity()); }
 
 void expect_first_row_is_the_handles_motion(const std::string& folder, const Reference& reference) {
   SCOPED_TRACE(reference.csv);
@@ -78,7 +78,7 @@ void expect_to_pass_through_the_samples(const std::string& path) {
 }
 
 TEST(ReferenceMotion, FirstRowIsTheHandlesMotion) {
-  const RigidTransform turned = make_transform(Quaterniond(0.974679434, 0.1, 0.0, 0.2), {0.02, 0.03, -0.07});
+  const RigidTransform turned = make_transform({0.02, 0.03, -0.07}, Quaterniond(0.974679434, 0.1, 0.0, 0.2));
   const Reference references[] = {
       {"swing_soft", "motion_swing", 0.2, at(0.03, 0.02, -0.05)},
       {"reach_constant_shape", "motion_reach", 0.2, at(0.03, 0.02, -0.05)},

@@ -50,7 +50,7 @@ TEST(MotionFile, ReadsWhatWasWritten) {
     motion::StylusSample sample;
     sample.t = std::round(2e7 * i + 1e6 * uniform(engine) * (i > 0)) / 1e9;
     const Quaterniond q = Quaterniond(uniform(engine), uniform(engine), uniform(engine), 2.0).normalized();
-    sample.X = make_transform(q, Vector3d(uniform(engine), uniform(engine), uniform(engine)));
+    sample.X = make_transform(Vector3d(uniform(engine), uniform(engine), uniform(engine)), q);
     sample.button = uniform(engine) > 0.0;
     char line[400];
     const Vector3d p = sample.X.translation();

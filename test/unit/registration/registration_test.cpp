@@ -20,7 +20,7 @@ const std::vector<Vector3d> kPlaces{{0, 0, 0}, {0.4, 0, 0}, {0.1, 0.3, 0}, {0.35
 
 RigidTransform some_pose(unsigned seed) {
   srand(seed);
-  return make_transform(Quaterniond::UnitRandom(), Vector3d::Random());
+  return make_transform(Vector3d::Random(), Quaterniond::UnitRandom());
 }
 
 /// Touches of the landmarks as measured by a tracker at X_BT.
@@ -118,7 +118,7 @@ std::vector<RigidTransform> pivoted(const Vector3d& tip, double reach, double no
   for (int k = 0; k < 300; ++k) {
     const Matrix3d R = math::exp_so3(reach * Vector3d(std::sin(0.13 * k), std::cos(0.071 * k), std::sin(0.029 * k)));
     const Vector3d e(error(random), error(random), error(random));
-    poses.push_back(make_transform(Quaterniond(R), rest - R * tip + noise * e));
+    poses.push_back(make_transform(rest - R * tip + noise * e, Quaterniond(R)));
   }
   return poses;
 }

@@ -80,8 +80,8 @@ geometry::MeshPtr notched_block() {
 
 // All contacts of a pair of shapes, whichever way they push, stop it together.
 TEST(RigidWorld, ABoxStopsInANotchWithBothItsFaces) {
-  const RigidTransform X = make_transform(Quaterniond(Eigen::AngleAxisd(0.25 * M_PI, Vector3d::UnitY())),
-                                          Vector3d(0.0, 0.0, 0.02 * std::sqrt(2.0) + 1e-5));
+  const RigidTransform X = make_transform(Vector3d(0.0, 0.0, 0.02 * std::sqrt(2.0) + 1e-5),
+                                          Quaterniond(Eigen::AngleAxisd(0.25 * M_PI, Vector3d::UnitY())));
   scene::Body block = box("block", Vector3d::Ones(), 1.0, Vector3d::Zero(), 0.0);
   block.movable = false;
   block.collision[0].geometry = notched_block();

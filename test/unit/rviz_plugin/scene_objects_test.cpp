@@ -114,7 +114,7 @@ TEST_F(SceneObjectsTest, NodesAreAtThePosesOfTheMessage) {
       const Ogre::SceneNode* node = objects.node(state.name);
       const auto& p = state.pose.position;
       const auto& q = state.pose.orientation;
-      const RigidTransform X_WO = make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+      const RigidTransform X_WO = make_transform(Vector3d(p.x, p.y, p.z), Quaterniond(q.w, q.x, q.y, q.z));
       EXPECT_NEAR(static_cast<double>(node->getPosition().x), p.x, 1e-6);
       EXPECT_NEAR(static_cast<double>(node->getPosition().y), p.y, 1e-6);
       EXPECT_NEAR(static_cast<double>(node->getPosition().z), p.z, 1e-6);

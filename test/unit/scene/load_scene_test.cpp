@@ -81,7 +81,7 @@ TEST_F(LoadScene, TheObjectFrameIsTheCentreOfMassInTheAxesOfTheLink) {
   ASSERT_EQ(scene.bodies.size(), 1u);
   const Body& body = scene.bodies[0];
   EXPECT_TRUE(body.movable);
-  const RigidTransform X_WL = make_transform(Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitZ())), Vector3d(1, 2, 3));
+  const RigidTransform X_WL = make_transform(Vector3d(1, 2, 3), Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitZ())));
   EXPECT_TRUE((body.X_WO * body.X_OL).isApprox(X_WL, 1e-12));
   EXPECT_TRUE(body.X_OL.translation().isApprox(Vector3d(-0.01, -0.02, -0.03)));
   EXPECT_TRUE(body.X_OL.linear().isIdentity());

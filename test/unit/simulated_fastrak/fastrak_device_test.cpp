@@ -145,7 +145,7 @@ TEST(PlayedMotion, GoesRoundAndThroughItsSamples) {
   const auto sample = [](double t, const Quaterniond& q, const Vector3d& p, bool button) {
     motion::StylusSample s;
     s.t = t;
-    s.X = make_transform(q, p);
+    s.X = make_transform(p, q);
     s.button = button;
     return s;
   };

@@ -23,7 +23,7 @@ long allocations_of(scene::ContactMode contact, const SimulationSettings& settin
     simulation.push_stylus({t, pointing_down(tip)});
     if (i < 2) continue;
     const long before = allocations;
-    const AdvanceReport report = simulation.advance(t - 0.02);
+    const AdvanceReport report = simulation.advance_to(t - 0.02);
     if (i < 102) continue;
     EXPECT_EQ(report.steps, 1);
     during += allocations - before;

@@ -34,7 +34,7 @@ TEST_P(Breakaway, WhatIsTooHeavyIsNotLiftedAndWhatIsNotIs) {
     push_move(simulation, 0.0, 3.0, above, above + Vector3d(0.0, 0.0, 0.2));
     simulation.push_button(0.0, true);
     for (int i = 1; i <= 150; ++i) {
-      simulation.advance(0.02 * i);
+      simulation.advance_to(0.02 * i);
       EXPECT_LE(simulation.tool().tip_wrench_W.force.norm(), share * gravity);
     }
     const bodies::BodyState& box = simulation.objects()[0];
@@ -52,7 +52,7 @@ TEST_P(Breakaway, PressingBeyondTheLimitReleases) {
   push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.04));  // 2000 N/m: 80 N
   simulation.push_button(0.0, true);
   for (int i = 1; i <= 50; ++i) {
-    simulation.advance(0.02 * i);
+    simulation.advance_to(0.02 * i);
     EXPECT_LE(simulation.tool().tip_wrench_W.force.norm(), 30.0);
   }
   EXPECT_FALSE(simulation.objects()[0].held);
@@ -71,7 +71,7 @@ TEST(BreakawayForce, AStiffForkDoesNotCarryAlongWhatIsTooHeavyForIt) {
   Simulation simulation(one_box(mass, scene::ContactMode::none), set);
   push_move(simulation, 0.0, time, above, above + Vector3d(0.5, 0.0, 0.5));
   simulation.push_button(0.0, true);
-  simulation.advance(time);
+  simulation.advance_to(time);
   const bodies::BodyState& box = simulation.objects()[0];
   EXPECT_FALSE(box.held);
   EXPECT_LE(box.V_WO_W.linear.norm(), force / mass * time);
@@ -90,12 +90,12 @@ TEST(BreakawayForce, NoWrenchIsLargerInAnyMotion) {
     simulation.push_stylus({0.0, X});
     simulation.push_button(0.0, true);
     for (int i = 1; i <= 50; ++i) {
-      X = make_transform(Quaterniond(math::exp_so3(random.vector(0.1)) * X.linear()),
-                         X.translation() + random.vector(0.02));
+      X = make_transform(X.translation() + random.vector(0.02),
+                         Quaterniond(math::exp_so3(random.vector(0.1)) * X.linear()));
       simulation.push_stylus({0.02 * i, X});
     }
     for (int i = 1; i <= 100; ++i) {
-      simulation.advance(0.01 * i);
+      simulation.advance_to(0.01 * i);
       const tools::ToolState fork = simulation.tool();
       EXPECT_LE(fork.tip_wrench_W.force.norm(), force) << trial;
       EXPECT_LE(fork.tip_wrench_W.moment.norm(), moment) << trial;

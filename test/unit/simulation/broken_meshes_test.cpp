@@ -135,7 +135,7 @@ TEST(BrokenMeshes, HeldAndPressedTheyStayBoundedAndComeFree) {
       push_move(s, 0.42, 0.8, start + Vector3d(0.1, 0.02, -0.08), start + Vector3d(0, 0, 0.1));
       push_move(s, 0.82, 2.0, start + Vector3d(0, 0, 0.1), start + Vector3d(0, 0, 0.1));
       for (int i = 1; i <= 100; ++i) {
-        EXPECT_EQ(s.advance(0.02 * i).steps_rejected, 0) << broken.what;
+        EXPECT_EQ(s.advance_to(0.02 * i).steps_rejected, 0) << broken.what;
         const bodies::BodyState& o = s.objects()[0];
         ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite()) << broken.what;
         EXPECT_LT(o.X_WO.translation().norm(), 0.5) << broken.what;

@@ -29,19 +29,19 @@ TEST(Clutch, WhatIsHeldRestsWhileTheHandGoesHalfAMetre) {
     push_move(simulation, 0.0, 60.0, start, start);
     push_move(simulation, 60.02, 62.0, start, away);
     simulation.push_button(0.0, true);
-    simulation.advance(60.0);
+    simulation.advance_to(60.0);
     ASSERT_TRUE(simulation.objects()[0].held) << validation::name_of(tool);
     simulation.push_clutch(60.0, true);
     const RigidTransform before = pose(simulation);
     for (int i = 1; i <= 100; ++i) {
-      simulation.advance(60.0 + 0.02 * i);
+      simulation.advance_to(60.0 + 0.02 * i);
       ASSERT_LT((pose(simulation).matrix() - before.matrix()).cwiseAbs().maxCoeff(), 1e-9) << i;
     }
     // Then it continues from there: the object moves as far as the hand.
     simulation.push_clutch(62.0, false);
     push_move(simulation, 62.02, 64.0, away, start);
     push_move(simulation, 64.02, 70.0, start, start);
-    simulation.advance(70.0);
+    simulation.advance_to(70.0);
     EXPECT_LT((simulation.tool().X_WS.translation() - (start + start - away)).norm(), 1e-9);
     if (tool == tools::Tool::spring) continue;  // a pendulum without a damper across
     const Vector3d gone = pose(simulation).translation() - before.translation();
@@ -56,7 +56,7 @@ TEST(Clutch, TheToolTurnsAsTheHandDoesInWorld) {
     for (int i = 0; i <= 50; ++i) {
       const double u = i / 50.0, s = u * u * (3.0 - 2.0 * u);
       const Quaterniond turn(Eigen::AngleAxisd(s * by.norm(), by.normalized()));
-      simulation.push_stylus({t0 + 0.02 * i, make_transform(turn * from, Vector3d(s, -s, 0.5))});
+      simulation.push_stylus({t0 + 0.02 * i, make_transform(Vector3d(s, -s, 0.5), turn * from)});
     }
   };
   const Quaterniond down(0.0, 1.0, 0.0, 0.0), tilted = Quaterniond(Eigen::AngleAxisd(0.9, Vector3d::UnitY())) * down;
@@ -64,9 +64,9 @@ TEST(Clutch, TheToolTurnsAsTheHandDoesInWorld) {
   simulation.push_clutch(0.0, true);
   simulation.push_clutch(1.0, false);
   turned(1.02, tilted, {0.3, -0.2, 0.5});
-  simulation.advance(1.02);
+  simulation.advance_to(1.02);
   EXPECT_LT((simulation.tool().X_WS.linear() - down.toRotationMatrix()).norm(), 1e-9);
-  simulation.advance(2.02);
+  simulation.advance_to(2.02);
   const Vector3d by(0.3, -0.2, 0.5);
   const Matrix3d expected = Eigen::AngleAxisd(by.norm(), by.normalized()) * down.toRotationMatrix();
   EXPECT_LT((simulation.tool().X_WS.linear() - expected).norm(), 1e-9);
@@ -80,9 +80,9 @@ TEST(Clutch, OnAndOffAtFullSpeedNothingJumps) {
     simulation.push_clutch(pressed, true);
     simulation.push_clutch(pressed + 0.3, false);
     for (const double t : {pressed, pressed + 0.3}) {
-      simulation.advance(t - 1e-7);
+      simulation.advance_to(t - 1e-7);
       const bodies::BodyState before = simulation.objects()[0];
-      simulation.advance(t + 1e-7);
+      simulation.advance_to(t + 1e-7);
       const bodies::BodyState& after = simulation.objects()[0];
       EXPECT_LT((after.X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-6) << t;
       EXPECT_LT((after.V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-4) << t;
@@ -100,11 +100,11 @@ TEST(Clutch, OnAndOffAtFullSpeedNoEnergyIsAdded) {
     push_move(simulation, 0.0, 2.0, above, above + Vector3d(0.4, 0.0, 0.1), 1.0);
     simulation.push_button(0.0, true);
     for (const double t : {0.513, 0.76}) {
-      simulation.advance(t);
+      simulation.advance_to(t);
       const double before = simulation.energy();
       ASSERT_GT(simulation.elastic_energy(), 1e-3);
       simulation.push_clutch(t, t < 0.6);
-      simulation.advance(t);
+      simulation.advance_to(t);
       ASSERT_EQ(simulation.tool().clutch, t < 0.6);
       EXPECT_NEAR(simulation.energy(), before, 1e-12) << t;
     }
@@ -124,7 +124,7 @@ TEST(Clutch, AfterItTheToolGoesAsOfAHandThatIsThere) {
     if (clutched) simulation.push_clutch(1.2, false);
     const Vector3d from = clutched ? Vector3d(above + by) : above;
     push_move(simulation, 1.52, 2.5, from, from + Vector3d(0.2, 0.1, 0.2), 0.8);
-    simulation.advance(2.3);
+    simulation.advance_to(2.3);
     return simulation.objects()[0];
   };
   const bodies::BodyState there = run(false), clutched = run(true);
@@ -141,9 +141,9 @@ TEST(HandScale, TheToolGoesSoManyTimesAsFar) {
     const Vector3d start = Vector3d(0.02, 0.0, 0.5) / scale, by(0.05, 0.02, 0.1);
     push_move(simulation, 0.0, 1.0, start, start + by, 0.5);
     simulation.push_button(0.0, true);
-    simulation.advance(0.01);
+    simulation.advance_to(0.01);
     const RigidTransform before = pose(simulation);
-    simulation.advance(1.0);
+    simulation.advance_to(1.0);
     EXPECT_LT((pose(simulation).translation() - before.translation() - scale * by).norm(), 1e-4 * scale);
     EXPECT_NEAR(Eigen::AngleAxisd(before.linear().transpose() * pose(simulation).linear()).angle(), 0.5, 1e-4);
   }
@@ -162,7 +162,7 @@ void live_through(double rate, Simulation& simulation) {
   simulation.push_clutch(rate * 1.4, false);
   simulation.push_external_wrench({rate * 1.5, {Vector3d(2.0, 0.0, 3.0), Vector3d(0.0, 0.0, 0.05)}});
   simulation.push_button(rate * 2.6, false);
-  simulation.advance(rate * 4.0);
+  simulation.advance_to(rate * 4.0);
 }
 
 /// The law of the time scale: the result is bit-identical to that of a hand that is faster by this factor.
@@ -190,13 +190,13 @@ TEST(HandTimeScale, EdgesAndSamplesAreOfTheHand) {
   push_move(simulation, 5.0, 6.0, above, above);
   simulation.push_button(5.013, true);
   EXPECT_NEAR(simulation.time(), 5.0, 1e-12);
-  EXPECT_NEAR(simulation.newest_sample(), 6.0, 1e-12);
-  double simulated = simulation.advance(5.0).simulated_time;
+  EXPECT_NEAR(simulation.newest_sample_time(), 6.0, 1e-12);
+  double simulated = simulation.advance_to(5.0).simulated_time;
   for (const double edge : {5.013, 5.02, 5.04}) {
-    EXPECT_NEAR(simulation.next_edge(), edge, 1e-12);
-    simulated += simulation.advance(simulation.next_edge()).simulated_time;
+    EXPECT_NEAR(simulation.next_event_time(), edge, 1e-12);
+    simulated += simulation.advance_to(simulation.next_event_time()).simulated_time;
     EXPECT_NEAR(simulated, simulation.time() - 5.0, 1e-12);
-    EXPECT_EQ(simulation.advance(simulation.time()).steps, 0);
+    EXPECT_EQ(simulation.advance_to(simulation.time()).steps, 0);
   }
 }
 
@@ -217,7 +217,7 @@ TEST(HandTimeScale, WithTheScalesOfLengthAndForceALargeWorldIsLikeASmallOne) {
         scene_of({box("box", scale * size, std::pow(scale, 3), scale * at)}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 1.5, above, above + Vector3d(0.2, 0.1, 0.2), 1.2);
     simulation.push_button(0.0, true);
-    simulation.advance(1.3);
+    simulation.advance_to(1.3);
     EXPECT_TRUE(simulation.objects()[0].held);
     return simulation;
   };
@@ -226,7 +226,7 @@ TEST(HandTimeScale, WithTheScalesOfLengthAndForceALargeWorldIsLikeASmallOne) {
     const Simulation large = run(scale);
     EXPECT_LT((pose(large).translation() / scale - pose(small).translation()).norm(), 1e-8) << scale;
     EXPECT_LT((pose(large).linear() - pose(small).linear()).norm(), 1e-7) << scale;
-    const Twist V = at_hand(large.tool().V_WE_W, large.settings()), V_small = small.tool().V_WE_W;
+    const Twist V = to_hand_units(large.tool().V_WE_W, large.settings()), V_small = small.tool().V_WE_W;
     EXPECT_LT((V.linear - V_small.linear).norm(), 1e-6) << scale;
     EXPECT_LT((V.angular - V_small.angular).norm(), 1e-5) << scale;
     const Vector3d felt = large.tool().handle_wrench_H.force / large.tool().force_scale;

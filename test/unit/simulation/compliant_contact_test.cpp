@@ -71,8 +71,8 @@ TEST_P(Compliant, RestsAtItsWeightTimesTheComplianceWhateverItsShape) {
       SimulationSettings set;
       set.dynamics.step = step;
       Simulation s(scene, set);
-      s.advance(0.0);
-      const AdvanceReport report = s.advance(3.0);
+      s.advance_to(0.0);
+      const AdvanceReport report = s.advance_to(3.0);
       EXPECT_NEAR(0.02 - object(s, "body").X_WO.translation().z(), depth, 5e-3 * depth + 1e-6) << geometry.index();
       EXPECT_NEAR(pressure(s, "body").force, mass * g, 1e-2 * mass * g) << geometry.index() << " " << step;
       EXPECT_TRUE(object(s, "body").asleep) << geometry.index() << " " << step;
@@ -92,8 +92,8 @@ TEST(CompliantStack, EachPairCarriesWhatIsAboveIt) {
         stiffness[i]));
   }
   Simulation s(scene_of(bodies, ContactMode::dynamic), SimulationSettings());
-  s.advance(0.0);
-  const AdvanceReport report = s.advance(4.0);
+  s.advance_to(0.0);
+  const AdvanceReport report = s.advance_to(4.0);
   EXPECT_EQ(report.steps_unsolved, 0);
   double z = 0.0, above = 3.5;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -128,7 +128,7 @@ TEST_P(Compliant, EveryToolPressesInSeriesWithTheMaterials) {
       push_move(s, 1.02, 2.0, start - Vector3d(0.0, 0.0, 0.03 + press), start - Vector3d(0.0, 0.0, 0.03 + press));
       s.push_button(0.0, true);
       AdvanceReport report;
-      for (double t = 0.02; t < 1.99; t += 0.02) report.add(s.advance(t));
+      for (double t = 0.02; t < 1.99; t += 0.02) report.add(s.advance_to(t));
       EXPECT_EQ(report.steps_blocked, 0) << validation::name_of(tool) << " " << k;
       ASSERT_EQ(s.tool().held_object, "held") << validation::name_of(tool);
       const Pressure at = pressure(s, "held");
@@ -158,8 +158,8 @@ TEST_P(Compliant, PressedAskewItIsAsDeepAsTheWholeForceMakesIt) {
     for (double t = 1.02; t < 4.0; t += 0.02)
       s.push_stylus({t, pointing_down(start - Vector3d(0.01, 0.0, 0.06), turn)});
     s.push_button(0.0, true);
-    const AdvanceReport report = s.advance(3.9);
-    s.advance(3.92);
+    const AdvanceReport report = s.advance_to(3.9);
+    s.advance_to(3.92);
     EXPECT_EQ(report.steps_blocked, 0);
     const Pressure at = pressure(s, "held");
     EXPECT_GT(at.force, 5.0);
@@ -190,7 +190,7 @@ TEST_P(Compliant, GainsNoEnergy) {
     SimulationSettings set;
     set.dynamics.step = std::vector<double>{0.02, 5e-3, 1e-3}[static_cast<std::size_t>(i) % 3];
     Simulation s(scene, set);
-    s.advance(0.0);
+    s.advance_to(0.0);
     const auto energy = [&] {
       double sum = energy_of(object(s, "body"), scene.bodies[0], size, k);
       if (scene.bodies.size() > 1)
@@ -200,7 +200,7 @@ TEST_P(Compliant, GainsNoEnergy) {
     const double start = energy();
     double least = start;
     for (double t = set.dynamics.step; t < 1.5; t += set.dynamics.step) {
-      s.advance(t);
+      s.advance_to(t);
       EXPECT_LT(energy(), least + 2e-3 * start) << i << " " << t << " " << mass << " " << k;
       least = std::min(least, energy());
     }
@@ -219,9 +219,9 @@ TEST_P(Compliant, BouncesAsARigidBodyDoes) {
     scene.bench_material.restitution = e;
     add_neighbour(scene, Vector3d(0.0, radius + 1.5e-3 + 0.025, 0.025));
     Simulation s(scene, SimulationSettings());
-    s.advance(0.0);
+    s.advance_to(0.0);
     const double fall = std::sqrt(2.0 * drop / g);
-    s.advance(fall * (1.0 + e));
+    s.advance_to(fall * (1.0 + e));
     EXPECT_NEAR(object(s, "ball").X_WO.translation().z() - radius, e * e * drop, 0.02 * e * e * drop) << stiffness;
   }
 }
@@ -241,7 +241,7 @@ TEST_P(Compliant, AsStiffAsCanBeItIsRigid) {
     push_move(s, 0.0, 1.0, start, start + Vector3d(0.1, 0.0, -0.05), 0.2);
     for (double t = 1.02; t < 3.0; t += 0.02) s.push_stylus({t, pointing_down(start + Vector3d(0.1, 0.0, -0.05), 0.2)});
     s.push_button(0.0, true);
-    EXPECT_EQ(s.advance(2.9).steps_blocked, 0) << stiffness;
+    EXPECT_EQ(s.advance_to(2.9).steps_blocked, 0) << stiffness;
     return s.objects()[0].X_WO;
   };
   const RigidTransform rigid = run(std::numeric_limits<double>::infinity());
@@ -264,7 +264,7 @@ TEST_P(Compliant, AProbePressesAnObjectThatYieldsAtEachOfItsContactsOnce) {
   const Vector3d high(0.01, 0.01, set.fork.length + 0.12), low(0.01, 0.01, set.fork.length + tip);
   push_move(s, 0.0, 1.0, high, low);
   push_move(s, 1.02, 3.0, low, low);
-  s.advance(2.9);
+  s.advance_to(2.9);
   const double foot = 1.0 / own + 1.0 / bench, at_tip = 1.0 / own + 1.0 / probe;
   const double force = (0.1 - mass * g * foot - tip) / (at_tip + foot);
   EXPECT_NEAR(s.tool().tip_wrench_W.force.z(), -force, 5e-3 * force);
@@ -288,7 +288,7 @@ TEST_P(Compliant, DeepInASoftBenchItStillStopsAtARigidWall) {
   s.push_button(0.0, true);
   double deepest = 0.0, furthest = 0.0;
   for (double t = 0.02; t < 1.59; t += 0.02) {
-    EXPECT_EQ(s.advance(t).steps_blocked, 0) << t;
+    EXPECT_EQ(s.advance_to(t).steps_blocked, 0) << t;
     const bodies::BodyState& o = s.objects()[0];
     const double half = 0.5 * o.X_WO.linear().row(0).cwiseAbs().dot(Vector3d(0.1, 0.06, 0.04));
     furthest = std::max(furthest, o.X_WO.translation().x() + half - wall);

@@ -36,7 +36,7 @@ std::vector<RigidTransform> pressed_askew(scene::Scene scene, scene::ContactMode
   push_move(s, 0.0, 1.0, start, start + Vector3d(0.25, 0.05, -0.06), 1.0);
   std::vector<RigidTransform> poses;
   for (double t = 0.02; t < 1.0; t += 0.02) {
-    const AdvanceReport report = s.advance(t);
+    const AdvanceReport report = s.advance_to(t);
     sum.steps_among_movable += report.steps_among_movable;
     poses.push_back(s.objects()[0].X_WO);
   }
@@ -72,7 +72,7 @@ TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
     AdvanceReport sum;
     std::vector<Vector3d> path;
     for (double t = 0.02; t < 2.0; t += 0.02) {
-      sum.steps_among_movable += s.advance(t).steps_among_movable;
+      sum.steps_among_movable += s.advance_to(t).steps_among_movable;
       path.push_back(s.objects()[0].X_WO.translation());
     }
     return std::pair(sum.steps_among_movable, path);
@@ -116,7 +116,7 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
       push_line(s, 1.02, 6.02, {0, 0, z - 0.1}, {0.5, 0, z - 0.1});
       double deepest = 0.0;
       for (int i = 1; i <= 300; ++i) {
-        s.advance(0.02 * i);
+        s.advance_to(0.02 * i);
         const RigidTransform& X = s.objects()[0].X_WO;
         deepest = std::max(deepest,
                            X.linear().row(2).cwiseAbs().dot(Vector3d(0.1, 0.05, 0.025)) + floor - X.translation().z());
@@ -150,9 +150,9 @@ TEST(DynamicContact, LiftsAStackAndPutsItDown) {
   Simulation s(scene, set);
   const Vector3d start(0, 0, 0.02 + set.fork.length);
   push_move(s, 0.0, 1.0, start, start + Vector3d(0, 0, 0.1));
-  s.advance(0.98);
+  s.advance_to(0.98);
   push_move(s, 1.02, 2.0, start + Vector3d(0, 0, 0.1), start + Vector3d(0, 0, 0.1));
-  s.advance(1.98);
+  s.advance_to(1.98);
   const RigidTransform X = object(s, "lower").X_WO;
   const Vector3d on_top = X.inverse() * object(s, "upper").X_WO.translation();
   EXPECT_NEAR(X.translation().z(), 0.12 - 1.5 * g / 5000.0, 1e-3);
@@ -160,7 +160,7 @@ TEST(DynamicContact, LiftsAStackAndPutsItDown) {
   EXPECT_FALSE(object(s, "upper").asleep);
   push_move(s, 2.02, 3.0, start + Vector3d(0, 0, 0.1), start);
   push_move(s, 3.02, 5.0, start, start);
-  s.advance(5.0);
+  s.advance_to(5.0);
   EXPECT_NEAR(object(s, "upper").X_WO.translation().z(), 0.06, 2e-4);
 }
 
@@ -172,7 +172,7 @@ TEST(DynamicContact, PushesANeighbourAlong) {
   Simulation s(scene, set);
   const Vector3d start(0, 0, 0.04 + set.fork.length);
   push_move(s, 0.0, 2.0, start, start + Vector3d(0.3, 0, 0));
-  s.advance(1.98);
+  s.advance_to(1.98);
   const double gap = object(s, "pushed").X_WO.translation().x() - object(s, "pusher").X_WO.translation().x() - 0.1;
   EXPECT_NEAR(gap, 0.0, 2e-3);
   EXPECT_NEAR(object(s, "pushed").X_WO.translation().z(), 0.03, 1e-4);
@@ -192,7 +192,7 @@ TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
       push_move(s, 0.0, 0.5, start, start + Vector3d(0.22, 0, 0));
       push_move(s, 0.52, 1.0, start + Vector3d(0.22, 0, 0), start + Vector3d(0.22, 0, 0));
       for (double t = 0.02; t < 1.0 + 1e-9; t += 0.02) {
-        EXPECT_EQ(s.advance(t).steps_rejected, 0) << mass << " " << k;
+        EXPECT_EQ(s.advance_to(t).steps_rejected, 0) << mass << " " << k;
         const bodies::BodyState& box_state = s.objects()[0];
         const RigidTransform& X = box_state.X_WO;
         ASSERT_TRUE(X.matrix().allFinite()) << mass << " " << k;

@@ -52,7 +52,7 @@ Simulation run(const Extreme& extreme, unsigned seed) {
   double weight = 0.0, lowest = std::numeric_limits<double>::infinity(), drift = 0.0;
   for (const scene::Body& body : extreme.bodies) weight += g * body.mass_properties.mass;
   for (double t = 0.02; t < moving + resting; t += 0.02) {
-    const AdvanceReport report = s.advance(t);
+    const AdvanceReport report = s.advance_to(t);
     EXPECT_EQ(report.steps_rejected, 0) << t;
     for (const bodies::BodyState& o : s.objects()) {
       EXPECT_TRUE(o.X_WO.matrix().allFinite()) << o.name << " " << t;

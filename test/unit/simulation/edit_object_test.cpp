@@ -18,7 +18,7 @@ scene::Body cube(const std::string& name, const Vector3d& p_WO) {
 }
 
 RigidTransform at(const Vector3d& p, double turned = 0.0) {
-  return make_transform(Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())), p);
+  return make_transform(p, Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())));
 }
 
 ObjectEdit move_to(const std::string& name, const RigidTransform& X_WL) { return {Action::move, name, "", X_WL}; }
@@ -61,7 +61,7 @@ class Edits : public testing::TestWithParam<ContactMode> {
     push_move(s, 0.0, 1.0, start, start + Vector3d(0.1, 0.0, 0.3));
     for (double t = 1.02; t < 6.0; t += 0.02) s.push_stylus({t, pointing_down(start + Vector3d(0.1, 0.0, 0.3))});
     s.push_button(0.0, true);
-    s.advance(1.5);
+    s.advance_to(1.5);
     return s;
   }
   ObjectEdit addition(const std::string& name, const std::optional<RigidTransform>& X_WL) const {
@@ -81,8 +81,8 @@ TEST_P(Edits, EditsOfOtherObjectsDoNotAffectTheHeldOne) {
     Simulation s = lifted(), untouched = lifted();
     s.edit(edit);
     for (const double t : {1.5, 1.63, until}) {
-      s.advance(t);
-      untouched.advance(t);
+      s.advance_to(t);
+      untouched.advance_to(t);
       const bodies::BodyState a = object(s, "held"), b = object(untouched, "held");
       EXPECT_LE((a.X_WO.matrix() - b.X_WO.matrix()).norm(), asleep_later) << edit.name;
       EXPECT_LE((s.tool().strain - untouched.tool().strain).norm(), 10.0 * asleep_later) << edit.name;
@@ -97,30 +97,30 @@ TEST_P(Edits, AnAddedObjectFallsLandsAndCanBeRemoved) {
   s.edit(addition("brick", at(Vector3d(-1.0, 0.0, 0.4), 0.3)));
   EXPECT_EQ(s.objects().back().name, "brick");
   const double begin = s.time();
-  s.advance(begin + 0.2);
+  s.advance_to(begin + 0.2);
   EXPECT_NEAR(object(s, "brick").X_WO.translation().z(), 0.42 - 0.5 * g * 0.04, 1e-12);
   if (GetParam() != ContactMode::none) {
-    s.advance(3.0);
+    s.advance_to(3.0);
     EXPECT_NEAR(object(s, "brick").X_WO.translation().z(), 0.07, 1e-4);
     EXPECT_TRUE(object(s, "brick").asleep);
   }
   s.edit(removal("brick"));
   EXPECT_EQ(s.objects().size(), 3u);
   EXPECT_EQ(s.scene().bodies.size(), 4u);
-  s.advance(3.5);
+  s.advance_to(3.5);
   EXPECT_TRUE(object(s, "held").held);
 }
 
 TEST_P(Edits, AHeldObjectWithAnotherMassHangsByItsWeightAndDoesNotJump) {
   for (const double mass : {0.4, 2.5}) {
     Simulation s = lifted();
-    s.advance(4.0);
+    s.advance_to(4.0);
     const bodies::BodyState before = object(s, "held");
     const ChangeReport report = s.edit(new_mass("held", mass));
     EXPECT_LT((object(s, "held").X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-12);
     EXPECT_NEAR(report.elastic_energy_after, report.elastic_energy_before, 1e-9 * report.elastic_energy_before);
     EXPECT_EQ(s.scene().bodies[*scene::find_body(s.scene(), "held")].mass_properties.mass, mass);
-    s.advance(5.9);
+    s.advance_to(5.9);
     EXPECT_NEAR(s.tool().weight, mass, 1e-3 * mass);
     EXPECT_TRUE(object(s, "held").held);
   }
@@ -131,26 +131,26 @@ TEST_P(Edits, ARemovedObjectIsLetGoAndWhatLayOnItFalls) {
   s.edit(removal("held"));
   EXPECT_TRUE(s.tool().held_object.empty());
   s.edit(removal("below"));
-  s.advance(s.time() + 0.1);
+  s.advance_to(s.time() + 0.1);
   if (GetParam() == ContactMode::none) {
     EXPECT_EQ(object(s, "above").X_WO.translation().z(), 0.15);
     return;
   }
   EXPECT_NEAR(object(s, "above").X_WO.translation().z(), 0.15 - 0.5 * g * 0.01, 1e-12);
-  s.advance(3.0);
+  s.advance_to(3.0);
   EXPECT_NEAR(object(s, "above").X_WO.translation().z(), 0.05, 1e-4);
 }
 
 TEST_P(Edits, ABodyWithoutMassGetsItsShapesAndMassCanGo) {
   Simulation s = lifted();
   s.edit(new_mass("held", 0.0));
-  s.advance(2.0);
+  s.advance_to(2.0);
   EXPECT_TRUE(object(s, "held").held);
   EXPECT_EQ(s.tool().weight, 0.0);
   s.edit(new_mass("held", 1.5));
   const Matrix3d inertia = s.scene().bodies[0].mass_properties.inertia_O;
   EXPECT_LT((inertia - 1.5 / 6.0 * 0.01 * Matrix3d::Identity()).norm(), 1e-12);
-  s.advance(5.9);
+  s.advance_to(5.9);
   EXPECT_NEAR(s.tool().weight, 1.5, 2e-3);
 }
 
@@ -160,7 +160,7 @@ TEST_P(Edits, AStateOfAnEditedSceneHasTheSameFutureInANewSimulation) {
   s.edit(new_mass("held", 1.3));
   s.edit(removal("below"));
   s.edit(new_friction("above", 0.2));
-  s.advance(1.7);
+  s.advance_to(1.7);
   s.edit(new_mass("held", 1.7));
   s.edit(move_to("above", at(Vector3d(1.2, 0.3, 0.4))));
   const SimulationState state = parse_state(serialise(s.save()));
@@ -168,8 +168,8 @@ TEST_P(Edits, AStateOfAnEditedSceneHasTheSameFutureInANewSimulation) {
   other.restore(state);
   EXPECT_EQ(other.save(), s.save());
   for (const double t : {1.9, 2.5, 3.3}) {
-    s.advance(t);
-    other.advance(t);
+    s.advance_to(t);
+    other.advance_to(t);
     EXPECT_EQ(other.state_hash(), s.state_hash()) << t;
   }
   other.restore(lifted().save());  // back to the scene without edits
@@ -228,12 +228,12 @@ TEST(EditedFriction, DecidesHowFarABoxSlides) {
     }
     s.push_button(0.0, true);
     s.push_button(0.18, false);
-    s.advance(0.1);
+    s.advance_to(0.1);
     s.edit(new_friction("held", mu * mu / 0.5));  // with the bench's 0.5: mu
-    s.advance(0.18);
+    s.advance_to(0.18);
     const bodies::BodyState start = s.objects()[0];
     ASSERT_GT(start.V_WO_W.linear.x(), 0.5);
-    s.advance(2.9);
+    s.advance_to(2.9);
     const double path = start.V_WO_W.linear.squaredNorm() / (2.0 * mu * g);
     EXPECT_NEAR((s.objects()[0].X_WO.translation() - start.X_WO.translation()).x(), path, 0.01 * path) << mu;
   }

@@ -46,7 +46,7 @@ TEST(ExternalWrench, DeflectsTheForkByItselfOverTheStiffness) {
       set.fork.shape = shape;
       Simulation simulation = holding(one_box(mode, 0.0), set);
       measure(simulation, 1.0, 9.0, {{0.5, -0.25, -3.0}, {0.0, 0.0, 0.01}});
-      simulation.advance(9.0);
+      simulation.advance_to(9.0);
       ASSERT_TRUE(simulation.objects()[0].held);
       const tools::ToolState fork = simulation.tool();
       const std::string what = validation::name_of(mode) + ", " + validation::name_of(shape);
@@ -68,11 +68,11 @@ TEST(ExternalWrench, OfTheWeightUpwardsBringsTheForkToItsRestLength) {
       SimulationSettings set;
       set.force_scale = scale;
       Simulation simulation = holding(one_box(mode), set);
-      simulation.advance(5.0);
+      simulation.advance_to(5.0);
       EXPECT_NEAR(simulation.tool().stretch, g / stretch, 1e-6);
       EXPECT_NEAR(simulation.tool().weight, scale == 1.0 ? 1.0 : simulation.tool().weight, 1e-4);
       measure(simulation, 5.0, 12.0, {{0.0, 0.0, g / scale}, Vector3d::Zero()});  // in real units
-      simulation.advance(12.0);
+      simulation.advance_to(12.0);
       EXPECT_NEAR(simulation.tool().stretch, 0.0, 1e-7) << validation::name_of(mode);
       EXPECT_LT(simulation.tool().tip_wrench_W.force.norm(), 1e-3) << validation::name_of(mode);
     }
@@ -89,14 +89,14 @@ TEST(ExternalWrench, AddsToContact) {
       return force;
     };
     measure(simulation, 2.0, 4.0, {{0.0, 0.0, -20.0}, Vector3d::Zero()});
-    simulation.advance(3.99);
+    simulation.advance_to(3.99);
     EXPECT_NEAR(carried() + simulation.tool().tip_wrench_W.force.z(), g + 20.0, 0.05) << validation::name_of(mode);
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 * size_z, 1e-4);
-    simulation.advance(6.0);  // the watchdog has ended it
+    simulation.advance_to(6.0);  // the watchdog has ended it
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 * size_z, 1e-4);
     // Pulled up by more than its weight, it rises.
     measure(simulation, 6.0, 8.0, {{0.0, 0.0, 30.0}, Vector3d::Zero()});
-    simulation.advance(8.0);
+    simulation.advance_to(8.0);
     EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.5 * size_z + 5e-3) << validation::name_of(mode);
   }
 }
@@ -106,7 +106,7 @@ TEST(ExternalWrench, InTipAxesItTurnsWithTheTip) {
   set.fork.shape = rod::ShapeKind::bushing;
   Simulation simulation = holding(one_box(scene::ContactMode::none, 0.0), set, above, 0.5 * M_PI);
   measure(simulation, 1.0, 9.0, {{0.5, 0.0, 0.0}, Vector3d::Zero()}, Axes::tip);
-  simulation.advance(9.0);
+  simulation.advance_to(9.0);
   const Vector3d gone = simulation.objects()[0].X_WO.translation() - Vector3d(0.0, 0.0, 0.5);
   const Vector3d x_E = simulation.tool().X_WE.linear().col(0);
   EXPECT_NEAR(std::abs(x_E.y()), 1.0, 1e-3);  // the fork points down and is turned
@@ -121,7 +121,7 @@ TEST(ExternalWrench, ActsAtTheTip) {
   set.fork.dofs = {true, false, true};
   Simulation simulation = holding(one_box(scene::ContactMode::none, 0.0), set, above + Vector3d(off, 0.0, 0.0));
   measure(simulation, 1.0, 9.0, {{0.0, 1.0, 0.0}, {0.0, 0.0, 0.02}});
-  simulation.advance(9.0);
+  simulation.advance_to(9.0);
   EXPECT_NEAR(std::abs(simulation.tool().torsion), 0.02 / torsion, 1e-6);  // the force has no lever
   EXPECT_NEAR(simulation.tool().tip_wrench_W.moment.z(), -0.02, 1e-5);
 }
@@ -136,12 +136,12 @@ TEST(ExternalWrench, TheWatchdogEndsItAsAZeroDoes) {
     zero.push_external_wrench({1.25, Wrench(), Axes::world});
     AdvanceReport report;
     for (int i = 1; i <= 114; ++i) {  // until the zero has timed out, too
-      report.add(ended.advance(0.013 * i));
-      zero.advance(0.013 * i);
+      report.add(ended.advance_to(0.013 * i));
+      zero.advance_to(0.013 * i);
       ASSERT_EQ(ended.objects()[0].X_WO.matrix(), zero.objects()[0].X_WO.matrix()) << i;
       ASSERT_EQ(report.wrench_timeouts, 0.013 * i < 1.25 ? 0 : 1) << i;
     }
-    ended.advance(8.0);
+    ended.advance_to(8.0);
     EXPECT_NEAR(ended.tool().stretch, g / stretch, 1e-3 * g / stretch);
   }
 }
@@ -152,13 +152,13 @@ TEST(ExternalWrench, ActsFromItsTimeOn) {
   Simulation with = holding(one_box(scene::ContactMode::stop)), without = holding(one_box(scene::ContactMode::stop)),
              late = holding(one_box(scene::ContactMode::stop));
   with.push_external_wrench({1.005, pull, Axes::world});
-  EXPECT_EQ(with.next_edge(), 0.0);  // the first sample
-  for (Simulation* simulation : {&with, &without, &late}) simulation->advance(1.0);
-  EXPECT_EQ(with.next_edge(), 1.005);
-  for (Simulation* simulation : {&with, &without, &late}) simulation->advance(1.005);
+  EXPECT_EQ(with.next_event_time(), 0.0);  // the first sample
+  for (Simulation* simulation : {&with, &without, &late}) simulation->advance_to(1.0);
+  EXPECT_EQ(with.next_event_time(), 1.005);
+  for (Simulation* simulation : {&with, &without, &late}) simulation->advance_to(1.005);
   EXPECT_EQ(with.objects()[0].X_WO.matrix(), without.objects()[0].X_WO.matrix());
   late.push_external_wrench({1.0, pull, Axes::world});
-  for (Simulation* simulation : {&with, &without, &late}) simulation->advance(1.02);
+  for (Simulation* simulation : {&with, &without, &late}) simulation->advance_to(1.02);
   EXPECT_NE(with.objects()[0].X_WO.matrix(), without.objects()[0].X_WO.matrix());
   EXPECT_EQ(with.objects()[0].X_WO.matrix(), late.objects()[0].X_WO.matrix());
 }
@@ -168,15 +168,15 @@ TEST(ExternalWrench, WakesWhatRestsOnTheFork) {
     SimulationSettings set;
     set.tool = tool;
     Simulation simulation = holding(one_box(scene::ContactMode::stop), set);
-    simulation.advance(20.0);
+    simulation.advance_to(20.0);
     if (tool == tools::Tool::spring_fork) {
       ASSERT_TRUE(simulation.objects()[0].asleep);
     }
     const double before = simulation.objects()[0].X_WO.translation().z();
     measure(simulation, 20.0, 24.0, {{0.0, 0.0, g}, Vector3d::Zero()});
-    simulation.advance(24.0);
+    simulation.advance_to(24.0);
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z() - before, g / stretch, 1e-5);
-    simulation.advance(29.0);
+    simulation.advance_to(29.0);
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), before, 1e-5);
   }
 }
@@ -187,14 +187,14 @@ TEST(ExternalWrench, OnARigidToolTheHandFeelsIt) {
   set.tool = tools::Tool::direct;
   Simulation simulation = holding(one_box(scene::ContactMode::stop), set, {0.0, 0.0, 0.5});
   measure(simulation, 1.0, 3.0, {{2.0, 0.0, g}, Vector3d::Zero()});
-  simulation.advance(3.0);
+  simulation.advance_to(3.0);
   EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0.0, 0.0, 0.5)).norm(), 1e-9);
   EXPECT_LT((simulation.tool().tip_wrench_W.force - Vector3d(-2.0, 0.0, 0.0)).norm(), 1e-9);
   set = SimulationSettings();
   set.massless = true;
   Simulation massless = holding(one_box(scene::ContactMode::stop), set);
   measure(massless, 1.0, 3.0, {{2.0, 0.0, 5.0}, Vector3d::Zero()});
-  massless.advance(3.0);
+  massless.advance_to(3.0);
   EXPECT_LT((massless.objects()[0].X_WO.translation() - Vector3d(0.0, 0.0, 0.5)).norm(), 1e-9);
 }
 
@@ -207,7 +207,7 @@ TEST(ExternalWrench, ThoseOfTwoHandsAdd) {
     simulation.push_external_wrench({t, {{0.0, 0.0, 0.75 * g}, Vector3d::Zero()}, Axes::world}, 0);
     simulation.push_external_wrench({t, {{0.0, 0.0, 0.25 * g}, Vector3d::Zero()}, Axes::world}, 1);
   }
-  simulation.advance(15.0);
+  simulation.advance_to(15.0);
   ASSERT_EQ(simulation.tool(1).held_object, "box");
   EXPECT_NEAR(simulation.tool(0).tip_wrench_W.force.z() + simulation.tool(1).tip_wrench_W.force.z(), 0.0, 1e-3);
 }
@@ -219,9 +219,9 @@ TEST(ExternalWrench, ActsWhileTheToolSlips) {
   set.limit.action = tools::LimitAction::slip;
   Simulation simulation = holding(one_box(scene::ContactMode::none), set);
   measure(simulation, 1.0, 3.0, {{0.0, 0.0, -5.0}, Vector3d::Zero()});
-  simulation.advance(1.0);
+  simulation.advance_to(1.0);
   const double z = simulation.objects()[0].X_WO.translation().z();
-  simulation.advance(3.0);  // 2.81 N more than the tool can do, on 1 kg
+  simulation.advance_to(3.0);  // 2.81 N more than the tool can do, on 1 kg
   const double fallen = z - simulation.objects()[0].X_WO.translation().z();
   EXPECT_NEAR(fallen, 0.5 * 2.81 * 2.0 * 2.0, 0.1);
 }
@@ -229,7 +229,7 @@ TEST(ExternalWrench, ActsWhileTheToolSlips) {
 TEST(ExternalWrench, RefusedItChangesNothing) {
   Simulation simulation = holding(one_box(scene::ContactMode::stop));
   measure(simulation, 1.0, 2.0, {{1.0, 0.0, 0.0}, Vector3d::Zero()});
-  simulation.advance(1.5);
+  simulation.advance_to(1.5);
   const std::uint64_t before = simulation.state_hash();
   ExternalWrench bad{1.6, {{std::nan(""), 0.0, 0.0}, Vector3d::Zero()}, Axes::world};
   EXPECT_THROW(simulation.push_external_wrench(bad), validation::InputError);
@@ -248,7 +248,7 @@ TEST(ExternalWrench, TheLargestLeavesEverythingFinite) {
       simulation.push_external_wrench({t, {sign * Vector3d(1e5, -1e5, 1e5), 1e5 * Vector3d::Ones()}, Axes::tip});
     }
     for (int i = 1; i < 130; ++i) {
-      simulation.advance(0.01 * i);
+      simulation.advance_to(0.01 * i);
       ASSERT_TRUE(simulation.objects()[0].X_WO.matrix().allFinite()) << validation::name_of(mode) << " " << i;
       ASSERT_TRUE(simulation.objects()[0].V_WO_W.linear.allFinite()) << validation::name_of(mode) << " " << i;
     }
@@ -259,11 +259,11 @@ TEST(ExternalWrench, TheLargestLeavesEverythingFinite) {
 TEST(ExternalWrench, ARoundingErrorNextToASampleAddsNoStep) {
   for (const double off : {0.0, 1e-13, -1e-13}) {
     Simulation simulation = holding(one_box(scene::ContactMode::stop));
-    AdvanceReport report = simulation.advance(0.99);
+    AdvanceReport report = simulation.advance_to(0.99);
     for (int i = 51; i < 60; ++i) {
       simulation.push_external_wrench({0.02 * i + off, {{0.1 * i, 0.0, 0.0}, Vector3d::Zero()}, Axes::world});
     }
-    report = simulation.advance(1.17);
+    report = simulation.advance_to(1.17);
     EXPECT_EQ(report.steps, 8) << off;  // from one sample to the next; before the first wrench it rests
   }
 }
@@ -274,12 +274,12 @@ TEST(ExternalWrench, IsPartOfTheState) {
     for (const double at : {0.9, 1.003, 1.5, 2.04, 8.0}) {
       Simulation first = holding(one_box(mode)), second(one_box(mode), SimulationSettings());
       measure(first, 1.0, 2.0, {{1.0, -2.0, 4.0}, {0.0, 0.01, 0.05}}, Axes::tip);
-      first.advance(at);
+      first.advance_to(at);
       second.restore(first.save());
       EXPECT_EQ(second.state_hash(), first.state_hash());
       for (double t = at; t < at + 1.5; t += 0.017) {
-        first.advance(t);
-        second.advance(t);
+        first.advance_to(t);
+        second.advance_to(t);
         ASSERT_EQ(second.state_hash(), first.state_hash())
             << validation::name_of(mode) << " from " << at << " at " << t;
       }
@@ -304,12 +304,12 @@ TEST(TipTwist, IsTheDerivativeOfTheTipsPose) {
       if (holds) simulation.push_button(0.0, true);
       for (const double t : {0.613, 1.131, 2.007}) {
         constexpr double dt = 1e-5;
-        simulation.advance(t - dt);
+        simulation.advance_to(t - dt);
         const RigidTransform before = simulation.tool().X_WE;
-        simulation.advance(t);
+        simulation.advance_to(t);
         const tools::ToolState now = simulation.tool();
         ASSERT_EQ(now.held_object, holds ? "box" : "");
-        simulation.advance(t + dt);
+        simulation.advance_to(t + dt);
         const RigidTransform after = simulation.tool().X_WE;
         const Vector3d v = (after.translation() - before.translation()) / (2.0 * dt);
         const Eigen::AngleAxisd turn(after.linear() * before.linear().transpose());
@@ -326,10 +326,10 @@ TEST(TipTwist, IsTheDerivativeOfTheTipsPose) {
 TEST(TipTwist, IsZeroWhileTheClutchIsOn) {
   Simulation simulation(one_box(scene::ContactMode::none), SimulationSettings());
   push_move(simulation, 0.0, 2.0, above + Vector3d(0.2, 0.0, 0.3), above + Vector3d(0.5, 0.0, 0.3));
-  simulation.advance(0.5);
+  simulation.advance_to(0.5);
   EXPECT_GT(simulation.tool().V_WE_W.linear.norm(), 0.1);
   simulation.push_clutch(0.5, true);
-  simulation.advance(0.6);
+  simulation.advance_to(0.6);
   EXPECT_EQ(simulation.tool().V_WE_W.linear.norm(), 0.0);
 }
 

@@ -22,7 +22,7 @@ scene::Body cube(const std::string& name, const Vector3d& p_WO) {
 /// At time 0, with no hand.
 Simulation start_of(const scene::Scene& scene, const SimulationSettings& settings = {}) {
   Simulation s(scene, settings);
-  s.advance(0.0);
+  s.advance_to(0.0);
   return s;
 }
 
@@ -31,19 +31,19 @@ TEST_P(Falling, FollowsTheParabolaThenLandsAndRests) {
   high.X_WO.linear() = Eigen::AngleAxisd(0.4, Vector3d::UnitZ()).toRotationMatrix();
   Simulation s = start_of(scene_of({high}, GetParam()));
   for (const double t : {0.07, 0.15, 0.31}) {
-    s.advance(t);
+    s.advance_to(t);
     const bodies::BodyState& o = object(s, "high");
     EXPECT_NEAR(o.X_WO.translation().z(), 0.55 - 0.5 * g * t * t, 1e-14);
     EXPECT_NEAR(o.V_WO_W.linear.z(), -g * t, 1e-14);
     EXPECT_LT((o.X_WO.linear() - high.X_WO.linear()).norm(), 1e-15);
     EXPECT_FALSE(o.asleep);
   }
-  s.advance(2.0);
+  s.advance_to(2.0);
   EXPECT_TRUE(object(s, "high").asleep);
   EXPECT_NEAR(object(s, "high").X_WO.translation().z(), 0.05, 1e-4);
   s.reset();
-  s.advance(2.0);
-  s.advance(2.1);
+  s.advance_to(2.0);
+  s.advance_to(2.1);
   EXPECT_NEAR(object(s, "high").X_WO.translation().z(), 0.55 - 0.5 * g * 0.01, 1e-14);
 }
 
@@ -62,7 +62,7 @@ TEST_P(Falling, WhatNothingCarriesFallsAndWhatStandsStays) {
   const std::vector<bodies::BodyState> before = s.objects();
   EXPECT_FALSE(object(s, "just above").asleep);
   EXPECT_FALSE(object(s, "riding on that").asleep);
-  s.advance(1.0);
+  s.advance_to(1.0);
   for (const std::string& name : stand) {
     EXPECT_TRUE(object(s, name).asleep) << name;
     const scene::Body& body = scene.bodies[*scene::find_body(scene, name)];
@@ -79,7 +79,7 @@ TEST_P(Falling, NotWithoutGravityOrMass) {
   massless.massless = true;
   for (const SimulationSettings& settings : {weightless, massless}) {
     Simulation s = start_of(scene, settings);
-    s.advance(1.0);
+    s.advance_to(1.0);
     EXPECT_EQ(object(s, "high").X_WO.translation(), Vector3d(0.0, 0.0, 0.5));
     EXPECT_TRUE(object(s, "high").asleep);
   }
@@ -87,7 +87,7 @@ TEST_P(Falling, NotWithoutGravityOrMass) {
 
 TEST(FallingWithoutContact, NothingFalls) {
   Simulation s = start_of(scene_of({cube("high", Vector3d(0.0, 0.0, 0.5))}, ContactMode::none));
-  s.advance(1.0);
+  s.advance_to(1.0);
   EXPECT_EQ(object(s, "high").X_WO.translation(), Vector3d(0.0, 0.0, 0.5));
 }
 
@@ -104,15 +104,15 @@ TEST(Massless, EveryObjectOfTheWorldFollowsTheTipAndStaysWhereItIsReleased) {
     push_move(s, 0.0, 1.0, start, end, 0.7);
     s.push_button(0.0, true);
     s.push_button(0.98, false);
-    s.advance(0.9);
+    s.advance_to(0.9);
     const RigidTransform X_WO = s.tool().X_WH * Eigen::Translation3d(0.0, 0.0, settings.fork.length) *
                                 pointing_down(Vector3d::Zero()).inverse();
     EXPECT_TRUE(object(s, name).held);
     EXPECT_LT((object(s, name).X_WO.matrix() - X_WO.matrix()).norm(), 1e-12);
     EXPECT_EQ(s.tool().weight, 0.0);
-    s.advance(0.99);
+    s.advance_to(0.99);
     const RigidTransform released = object(s, name).X_WO;
-    s.advance(2.0);
+    s.advance_to(2.0);
     EXPECT_EQ(object(s, name).X_WO.matrix(), released.matrix());
   }
 }

@@ -47,7 +47,7 @@ TEST(ManyHands, AroundTheMiddleEachCarriesItsShare) {
         simulation.push_stylus({0.0, pointing_down(n == 1 ? Vector3d(0, 0, 0.7) : place(hand, n))}, hand);
         simulation.push_button(0.0, true, hand);
       }
-      simulation.advance(8.0);
+      simulation.advance_to(8.0);
       const double share = mass / static_cast<double>(n);
       EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 - share * g / 2000.0, 1e-6) << shape << n;
       for (std::size_t hand = 0; hand < n; ++hand) {
@@ -73,7 +73,7 @@ std::vector<bodies::BodyState> carried_by_three(const std::vector<std::size_t>& 
   }
   std::vector<bodies::BodyState> path;
   for (double t = 0.1; t < 1.5; t += 0.05) {
-    simulation.advance(t);
+    simulation.advance_to(t);
     path.push_back(simulation.objects()[0]);
   }
   for (std::size_t hand = 0; hand < 3; ++hand) EXPECT_EQ(simulation.tool(hand).held_object, "plate");
@@ -103,7 +103,7 @@ struct Apart {
       push_move(simulation, 0.0, 1.0, p, p + Vector3d(0.05, 0.1, 0.1), 0.4, hand);
       simulation.push_button(0.0, true, hand);
     }
-    simulation.advance(0.3);
+    simulation.advance_to(0.3);
   }
   static Vector3d at(std::size_t k) { return {0.5 * static_cast<double>(k), 0.0, 0.5}; }
   Simulation simulation;
@@ -111,7 +111,7 @@ struct Apart {
 
 TEST(ManyHands, WhatIsSetForOneNeverChangesTheOthers) {
   Apart undisturbed;
-  undisturbed.simulation.advance(1.2);
+  undisturbed.simulation.advance_to(1.2);
   std::mt19937 random(7);
   for (int trial = 0; trial < 24; ++trial) {
     Apart apart;
@@ -122,13 +122,13 @@ TEST(ManyHands, WhatIsSetForOneNeverChangesTheOthers) {
     change.stiffness.stretch = 1e3 * number();
     change.damping_ratio = {number(), number(), number()};
     if (trial % 3 == 0) change.dofs = {trial % 2 == 0, true, false};
-    s.change(change, hand);
+    s.change(change, {}, hand);
     if (trial % 4 == 1) s.select_tool(static_cast<tools::Tool>(random() % 5), hand);
     if (trial % 4 == 2) s.calibrate(hand);
     if (trial % 4 == 3) s.push_clutch(0.4, true, hand);
     if (trial % 5 == 4) s.release(hand);
     if (trial % 5 == 3) s.push_external_wrench({0.4, {{1.0, 2.0, 3.0}, Vector3d::Zero()}, {}}, hand);
-    s.advance(1.2);
+    s.advance_to(1.2);
     for (std::size_t other = 0; other < 4; ++other) {
       if (other == hand) continue;
       EXPECT_EQ(distance(s.objects()[other], undisturbed.simulation.objects()[other]), 0.0) << trial;
@@ -149,12 +149,12 @@ TEST(ManyHands, SettingThePresentValueMovesNothing) {
         s.push_button(0.0, true, hand);
       }
       for (std::size_t k = 1; k < 12; ++k) {
-        s.advance(0.1 * static_cast<double>(k));
+        s.advance_to(0.1 * static_cast<double>(k));
         if (!again) continue;
         const rod::ForkSettings& fork = s.fork_settings(k % 3);
         ForkChange same = k % 2 == 0 ? change_to(fork) : ForkChange();
         same.damping_ratio = change_to(fork).damping_ratio;
-        s.change(same, k % 4 == 3 ? std::nullopt : std::optional<std::size_t>(k % 4));
+        s.change(same, {}, k % 4 == 3 ? std::nullopt : std::optional<std::size_t>(k % 4));
       }
       return s.objects()[0];
     };
@@ -169,14 +169,14 @@ TEST(ManyHands, AReleasingHandLeavesTheWeightToTheOthers) {
       s.push_stylus({0.0, pointing_down(place(hand, 4))}, hand);
       s.push_button(0.02 * static_cast<double>(hand), true, hand);
     }
-    s.advance(6.0);
+    s.advance_to(6.0);
     const bodies::BodyState before = s.objects()[0];
     for (const std::size_t leaves : {2u, 0u, 3u}) {
       s.push_button(s.time(), false, leaves);
       double farthest = 0.0, carried = 0.0;
       const double begin = s.time();
       for (double t = 0.02; t < 2.0; t += 0.02) {
-        s.advance(begin + t);
+        s.advance_to(begin + t);
         farthest = std::max(farthest, (s.objects()[0].X_WO.translation() - before.X_WO.translation()).norm());
       }
       EXPECT_EQ(s.tool(leaves).held_object, "");
@@ -201,7 +201,7 @@ TEST(ManyHands, AFirstSampleThatIsARoundingErrorLaterIsOfTheSameTime) {
       s.push_button(0.1 + later, true, 1);
       std::int64_t acts = 0, steps = 0;
       for (int k = 1; k <= 20; ++k) {
-        ASSERT_NO_THROW(steps += s.advance(0.02 * k).steps) << later;
+        ASSERT_NO_THROW(steps += s.advance_to(0.02 * k).steps) << later;
         const tools::ToolState f = s.tool(1);
         acts += f.touched == "plate" || f.held_object == "plate" ? 1 : 0;
       }
@@ -213,7 +213,7 @@ TEST(ManyHands, AFirstSampleThatIsARoundingErrorLaterIsOfTheSameTime) {
 
 TEST(ManyHands, ThatAreNotUsedChangeNothing) {
   Apart one(1, 1), many(255, 1);
-  const AdvanceReport of_one = one.simulation.advance(1.2), of_many = many.simulation.advance(1.2);
+  const AdvanceReport of_one = one.simulation.advance_to(1.2), of_many = many.simulation.advance_to(1.2);
   EXPECT_EQ(distance(one.simulation.objects()[0], many.simulation.objects()[0]), 0.0);
   EXPECT_EQ(of_one.steps, of_many.steps);
   EXPECT_EQ(of_one.collision_queries, of_many.collision_queries);
@@ -234,7 +234,7 @@ TEST(ManyHands, AnyNumberFromOneTo255) {
     EXPECT_THROW(s.tool(styluses), validation::InputError);
     s.push_stylus({0.0, pointing_down(Vector3d(0, 0, 0.7))}, styluses - 1);
     s.push_button(0.0, true, styluses - 1);
-    s.advance(0.1);
+    s.advance_to(0.1);
     EXPECT_EQ(s.tool(styluses - 1).held_object, "plate");
   }
 }

@@ -51,7 +51,7 @@ struct Press {
     };
     for (int k = 0; k <= samples; ++k) simulation.push_stylus({0.02 * k, pointing_down({0.0, 0.0, height(0.02 * k)})});
     for (int k = 0; k < samples; ++k) {
-      simulation.advance(0.02 * k);
+      simulation.advance_to(0.02 * k);
       tools::ToolState tool = simulation.tool();
       tool.X_WS.translation() += Vector3d(normal(random), normal(random), normal(random));
       readings.take(0.02 * k, tool, mass > 0.0 ? object(simulation, "block").X_WO : RigidTransform::Identity());
@@ -155,14 +155,14 @@ TEST(Probe, PressesTheBench) {
   scene.bench_material.stiffness = 5e3;
   Simulation simulation(scene, with_probe(1000.0));
   simulation.push_stylus({0.0, pointing_down({0.3, 0.0, 0.18})});
-  simulation.advance(0.1);
+  simulation.advance_to(0.1);
   EXPECT_EQ(simulation.tool().touched, "workbench");
   EXPECT_NEAR(simulation.tool().handle_wrench_H.force.z(), -0.02 / (1.0 / 5e3 + 1.0 / 1e3), 1e-6);
 }
 
 /// The probe level, pointing along x.
 RigidTransform level(const Vector3d& p) {
-  return make_transform(Quaterniond(Eigen::AngleAxisd(0.5 * 3.14159265358979323846, Vector3d::UnitY())), p);
+  return make_transform(p, Quaterniond(Eigen::AngleAxisd(0.5 * 3.14159265358979323846, Vector3d::UnitY())));
 }
 
 TEST(Probe, PushesABoxAlongTheBenchAgainstFriction) {
@@ -171,7 +171,7 @@ TEST(Probe, PushesABoxAlongTheBenchAgainstFriction) {
     Simulation simulation(scene_of({box("box", {0.1, 0.1, 0.06}, 1.0, Vector3d(0.15, 0, 0.03), mu)}, contact, mu),
                           with_probe(probe));
     for (double t = 0.0; t < 2.0; t += 0.02) simulation.push_stylus({t, level({-0.15 + 0.1 * t, 0.0, 0.02})});
-    simulation.advance(1.8);
+    simulation.advance_to(1.8);
     const tools::ToolState tool = simulation.tool();
     EXPECT_EQ(tool.touched, "box");
     EXPECT_FALSE(simulation.objects()[0].held);
@@ -181,7 +181,7 @@ TEST(Probe, PushesABoxAlongTheBenchAgainstFriction) {
     EXPECT_NEAR(simulation.objects()[0].X_WO.translation().x() - 0.05, -0.15 + 0.18 + 0.2 - mu * g / probe, 1e-3);
     // When withdrawn, it leaves the box in place.
     for (double t = 2.0; t < 3.0; t += 0.02) simulation.push_stylus({t, level({0.05 - 0.2 * (t - 2.0), 0.0, 0.02})});
-    simulation.advance(3.0);
+    simulation.advance_to(3.0);
     EXPECT_EQ(simulation.tool().touched, "");
     EXPECT_LT(simulation.objects()[0].V_WO_W.linear.norm(), 1e-2);
   }
@@ -196,7 +196,7 @@ TEST(Probe, NoStiffnessMakesAPushBlowUp) {
       scene.gravity = 0.0;
       Simulation simulation(scene, with_probe(stiffness));
       for (double t = 0.0; t < 2.0; t += 0.02) simulation.push_stylus({t, level({-0.15 + 0.2 * t, 0.01, 0.5})});
-      simulation.advance(1.9);
+      simulation.advance_to(1.9);
       const bodies::BodyState& o = simulation.objects()[0];
       ASSERT_TRUE(o.X_WO.matrix().allFinite()) << stiffness;
       EXPECT_LT(o.V_WO_W.linear.norm(), 1.0) << stiffness << " " << material;
@@ -209,7 +209,7 @@ TEST(Probe, CannotHold) {
                         SimulationSettings());
   push_move(simulation, 0.0, 1.0, Vector3d(0, 0, 0.7), Vector3d(0.2, 0, 0.8));
   simulation.push_button(0.0, true);
-  simulation.advance(0.5);
+  simulation.advance_to(0.5);
   ASSERT_EQ(simulation.tool().held_object, "box");
   const bodies::BodyState before = simulation.objects()[0];
   EXPECT_NE(simulation.select_tool(tools::Tool::spring_probe).message.find("released"), std::string::npos);

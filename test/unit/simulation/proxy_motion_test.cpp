@@ -53,7 +53,7 @@ TEST(Proxy, OfARigidToolThatSlidesAlongAFloorHasTheHandsVelocityAndKeepsItWhenIt
         for (double t = 0.0; t < 1.0; t += sample)
           s.push_stylus({t, pressing(t, floor, set.fork.length, acceleration)});
         for (double t = sample; t < 0.9; t += sample) {
-          EXPECT_EQ(s.advance(t).steps_blocked, 0);
+          EXPECT_EQ(s.advance_to(t).steps_blocked, 0);
           if (t < 0.5) continue;  // friction has stretched the proxy's spring by then
           const Twist& V = s.objects()[0].V_WO_W;
           EXPECT_LT((V.linear - Vector3d(acceleration * (t - 0.2), 0, 0)).norm(), 1e-4) << t;
@@ -64,7 +64,7 @@ TEST(Proxy, OfARigidToolThatSlidesAlongAFloorHasTheHandsVelocityAndKeepsItWhenIt
         const double begin = s.time();
         ASSERT_TRUE(s.release());
         EXPECT_EQ(s.objects()[0].V_WO_W.linear, held.linear);
-        s.advance(begin + sample);
+        s.advance_to(begin + sample);
         const double way = held.linear.x() * sample - 0.5 * 0.4 * 9.81 * sample * sample;  // Coulomb
         EXPECT_NEAR(s.objects()[0].X_WO.translation().x() - at.x(), way, 5e-3 * way);
       }
@@ -92,7 +92,7 @@ TEST(Proxy, OfAForkThatPressesLeavesTheMotionAcrossAlone) {
     }
     std::vector<bodies::BodyState> at;
     for (double t = sample; t < 1.5; t += sample) {
-      s.advance(t);
+      s.advance_to(t);
       at.push_back(s.objects()[0]);
     }
     return at;

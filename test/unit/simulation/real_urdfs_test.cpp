@@ -25,14 +25,14 @@ void lift_and_put_down(const scene::Scene& scene, const scene::Body& body) {
   Simulation simulation(scene, set);
   const Vector3d start = body.X_WO.translation(), hand = start + Vector3d(0.0, 0.0, set.fork.length);
   simulation.push_stylus({0.0, pointing_down(hand)});
-  simulation.advance(0.0);
+  simulation.advance_to(0.0);
   const Vector3d lift(0.0, 0.0, 0.2 + 0.1 * simulation.tool().length);  // and what it sags
   push_move(simulation, 0.02, 1.0, hand, hand + lift);
   push_move(simulation, 4.0, 5.0, hand + lift, hand);
   const double size = geometry::bounding_radius(body.collision);
   const auto look = [&](double until) {
     for (double t = simulation.time() + 0.05; t < until; t += 0.05) {
-      simulation.advance(t);
+      simulation.advance_to(t);
       const bodies::BodyState& o = object(simulation, body.name);
       ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite());
       ASSERT_LT(o.V_WO_W.linear.norm(), 3.0);

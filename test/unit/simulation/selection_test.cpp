@@ -27,7 +27,7 @@ class Overlapping : public ::testing::Test {
   std::string lit_at(double x) {
     t_ += 0.1;
     simulation_.push_stylus({t_, pointing_down({x, 0.0, left.z() + reach})});
-    simulation_.advance(t_);
+    simulation_.advance_to(t_);
     std::string lit;
     for (const bodies::BodyState& o : simulation_.objects()) {
       if (o.highlighted) lit += o.name;
@@ -72,12 +72,12 @@ TEST_F(Overlapping, WhatIsLitIsHeldWhereTheTipIsWhileTheButtonIsDown) {
   for (const double x : {-0.04, 0.013, 0.031, 0.08}) {
     const std::string lit = lit_at(x);
     simulation_.push_button(t_, true);
-    simulation_.advance(t_ += 0.02);
+    simulation_.advance_to(t_ += 0.02);
     EXPECT_EQ(simulation_.tool().held_object, lit);
     const Vector3d tip = simulation_.tool().X_WE.translation();
     EXPECT_LT((tip - Vector3d(x, 0.0, left.z())).norm(), 1e-9) << x;
     simulation_.push_button(t_, false);
-    simulation_.advance(t_ += 0.02);
+    simulation_.advance_to(t_ += 0.02);
     EXPECT_EQ(simulation_.tool().held_object, "");
     simulation_.reset();
     t_ = 0.0;
@@ -93,7 +93,7 @@ TEST(Release, ByTheProbeIsAsItIsSet) {
     const Vector3d above = left + Vector3d(0.0, 0.0, reach);
     push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.3, 0.0, 0.2));
     simulation.push_button(0.0, true);
-    simulation.advance(0.5);
+    simulation.advance_to(0.5);
     ASSERT_TRUE(simulation.objects()[0].held);
     const Twist before = simulation.objects()[0].V_WO_W;
     ASSERT_GT(before.linear.norm(), 0.1);

@@ -56,7 +56,7 @@ std::string fingerprint(const SimulationSettings& s) {
       << s.grasp.world_goal.heaviest.value_or(-1.0) << s.grasp.start_follow << '|' << s.grasp.object << '|'
       << name(s.grasp.release) << '|';
   if (s.grasp.X_OE) out << s.grasp.X_OE->matrix();
-  out << '|' << s.dropout_after << '|' << s.wrench_timeout << '|' << s.bisection_levels;
+  out << '|' << s.dropout_after << '|' << s.wrench_timeout << '|' << s.impact_bisections;
   return out.str();
 }
 
@@ -137,8 +137,8 @@ TEST(Settings, BadInputNamesPlaceKeyValueAndRuleAndChangesNothing) {
       {"\ngravity: -9.81", "gravity", "-9.81"},
       {"\nforce_scale: 0", "force_scale", "0"},
       {"\ndropout_after: 0", "dropout_after", "0"},
-      {"\nbisection_levels: -1", "bisection_levels", "-1"},
-      {"\nbisection_levels: 8.5", "bisection_levels", "8.5"},
+      {"\nbisection_levels: -1", "impact_bisections", "-1"},
+      {"\nbisection_levels: 8.5", "impact_bisections", "8.5"},
       {"\ngrasp.object: [a]", "grasp.object", "[a]"},
       {"\ngrasp.tip_in_object: 0 0 0 0 0 0 0", "grasp.tip_in_object", "0 0 0 0 0 0 0"},
       {"\ngrasp.tip_in_object: 0 0 0 1", "grasp.tip_in_object", "0 0 0 1"},
@@ -207,7 +207,7 @@ TEST(Settings, ValidateRefusesWhatFilesMayNotContain) {
   for (const double stiffness : {-1.0, nan, 1e20}) refused([=](auto& s) { s.fork.stiffness.bend = stiffness; });
   for (const double gravity : {-1.0, nan}) refused([=](auto& s) { s.gravity = gravity; });
   for (const int styluses : {-1, 0, 256}) refused([=](auto& s) { s.styluses = styluses; });
-  for (const int levels : {-1, 31}) refused([=](auto& s) { s.bisection_levels = levels; });
+  for (const int levels : {-1, 31}) refused([=](auto& s) { s.impact_bisections = levels; });
   refused([](auto& s) { s.contact = static_cast<scene::ContactMode>(7); });
   refused([](auto& s) { s.grasp.release = static_cast<tools::Release>(-1); });
   refused([](auto& s) { s.dynamics.inertia = static_cast<dynamics::Inertia>(2); });

@@ -68,7 +68,7 @@ Simulation three_forks(const dynamics::DynamicsSettings& dynamics, const std::st
 
 Simulation fork_and_spring(const dynamics::DynamicsSettings& dynamics, bool soft) {
   Simulation simulation = two_forks(dynamics, "linear", soft);
-  simulation.advance(0.0);
+  simulation.advance_to(0.0);
   simulation.select_tool(tools::Tool::spring, 1);
   return simulation;
 }
@@ -90,13 +90,13 @@ Simulation fork_and_probe(const dynamics::DynamicsSettings& dynamics, bool soft)
   Simulation simulation(one_box(1.0), set);
   ForkChange softer;
   softer.stiffness.stretch = soft ? 40.0 : 200.0;
-  simulation.change(softer, 1);
+  simulation.change(softer, {}, 1);
   push_swing(simulation, Vector3d(0, 0, 0.7), 0);
   simulation.push_button(0.0, true, 0);
   simulation.select_tool(tools::Tool::spring_probe, 1);
   const Quaterniond level(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitY()));
   for (double t = 0.0; t < duration + 0.1; t += sample) {
-    simulation.push_stylus({t, make_transform(level, Vector3d(-0.27, 0, 0.5) + swing(t))}, 1);
+    simulation.push_stylus({t, make_transform(Vector3d(-0.27, 0, 0.5) + swing(t), level)}, 1);
   }
   return simulation;
 }
@@ -105,7 +105,7 @@ std::vector<RigidTransform> run(const MakeHold& setup, const dynamics::DynamicsS
   Simulation simulation = setup(dynamics, soft);
   std::vector<RigidTransform> poses;
   for (int i = 1; i <= std::lround(duration / sample); ++i) {
-    const AdvanceReport report = simulation.advance(i * sample);
+    const AdvanceReport report = simulation.advance_to(i * sample);
     EXPECT_EQ(report.steps_rejected, 0);
     poses.push_back(simulation.objects()[0].X_WO);
   }
@@ -225,11 +225,11 @@ std::vector<RigidTransform> on_one_way(const SimulationSettings& set, std::size_
     const rod::PerDof &k = set.fork.stiffness, &c = set.fork.damping_coefficient;
     change.stiffness = {second * k.stretch, second * k.bend, second * k.torsion};
     change.damping_coefficient = {second * c.stretch, second * c.bend, second * c.torsion};
-    simulation.change(change, 1);
+    simulation.change(change, {}, 1);
   }
   std::vector<RigidTransform> poses;
   for (double t = sample; t < duration; t += sample) {
-    simulation.advance(t);
+    simulation.advance_to(t);
     poses.push_back(simulation.objects()[0].X_WO);
   }
   return poses;
@@ -268,7 +268,7 @@ TEST(SharedLaw, MirroredHandsMoveItInTheirPlane) {
       simulation.push_button(0.0, true, hand);
     }
     for (double t = sample; t < duration; t += sample) {
-      simulation.advance(t);
+      simulation.advance_to(t);
       const bodies::BodyState& o = simulation.objects()[0];
       ASSERT_LT(std::abs(o.X_WO.translation().x()), 1e-5) << shape;
       const Vector3d turned = math::log_so3(o.X_WO.linear());
@@ -287,12 +287,12 @@ TEST(SharedLaw, ReadingsOfAllToolsAreTheChangeOfMomentum) {
       for (std::size_t hand = 0; hand < simulation.hands(); ++hand) sum += simulation.tool(hand).tip_wrench_W.force;
       return sum;
     };
-    simulation.advance(0.2);
+    simulation.advance_to(0.2);
     Vector3d impulse = Vector3d::Zero(), before = pull();
     const Vector3d start = c.mass * simulation.objects()[0].V_WO_W.linear;
     double largest = 0.0;
     for (int i = 1; i <= 400; ++i) {
-      simulation.advance(0.2 + 1e-3 * i);
+      simulation.advance_to(0.2 + 1e-3 * i);
       const Vector3d now = pull();
       impulse += 0.5e-3 * (before + now);
       before = now;
@@ -308,7 +308,7 @@ TEST(SharedLaw, EnergyIsAccountedFor) {
     const auto added = [&](double step) {
       Simulation simulation = c.setup(stepping(dynamics::IntegratorKind::exponential, step), false);
       double sum = 0.0;
-      for (double t = sample; t < duration; t += sample) sum += std::abs(simulation.advance(t).energy_balance);
+      for (double t = sample; t < duration; t += sample) sum += std::abs(simulation.advance_to(t).energy_balance);
       return sum;
     };
     const double fine = added(1e-3);
@@ -321,17 +321,17 @@ TEST(SharedLaw, GoesOnFromASavedStateBitByBit) {
   for (const Case& c : cases()) {
     for (const auto kind : {dynamics::IntegratorKind::exponential, dynamics::IntegratorKind::rosenbrock}) {
       Simulation simulation = c.setup(stepping(kind, 0.01), false);
-      simulation.advance(0.31);
+      simulation.advance_to(0.31);
       const SimulationState saved = simulation.save();
-      simulation.advance(0.63);
+      simulation.advance_to(0.63);
       const std::uint64_t hash = simulation.state_hash();
       simulation.restore(saved);
       EXPECT_TRUE(simulation.save() == saved) << c.name;
-      simulation.advance(0.63);
+      simulation.advance_to(0.63);
       EXPECT_EQ(simulation.state_hash(), hash) << c.name;
       Simulation other = c.setup(stepping(kind, 0.01), false);
       other.restore(saved);
-      other.advance(0.63);
+      other.advance_to(0.63);
       EXPECT_EQ(other.state_hash(), hash) << c.name;
     }
   }
@@ -349,7 +349,7 @@ TEST(SharedLaw, TheBenchCarriesWhatBothHandsPress) {
         push_move(simulation, 0.0, 0.5, p, p - Vector3d(0, 0, 0.01), 0.0, hand);
         simulation.push_button(0.0, true, hand);
       }
-      simulation.advance(3.0);
+      simulation.advance_to(3.0);
       const bodies::BodyState& o = simulation.objects()[0];
       EXPECT_NEAR(o.X_WO.translation().z(), 0.02, 2e-5) << shape;
       EXPECT_LT(o.V_WO_W.linear.norm(), 1e-5) << shape;
@@ -375,7 +375,7 @@ TEST(SharedLaw, WhatIsOffInBothForksSharesThePressOnTheBench) {
         push_move(simulation, 0.0, 0.5, p, p + Vector3d(0, 0, press ? -0.01 : 0.1), 0.0, hand);
         simulation.push_button(0.0, true, hand);
       }
-      const AdvanceReport report = simulation.advance(1.0);
+      const AdvanceReport report = simulation.advance_to(1.0);
       const bodies::BodyState& o = simulation.objects()[0];
       EXPECT_EQ(report.time_lost, 0.0) << shape;
       EXPECT_LT(report.collision_queries, 30 * report.steps) << shape;
@@ -391,11 +391,11 @@ TEST(SharedLaw, WhatIsOffInBothForksSharesThePressOnTheBench) {
 /// A rigid tool leads exactly, and a fork next to it is strained by that motion.
 TEST(SharedLaw, ARigidToolLeadsExactly) {
   Simulation simulation = two_forks({}, "bushing", false);
-  simulation.advance(0.0);
+  simulation.advance_to(0.0);
   const Vector3d p_SO = simulation.tool(0).X_WS.inverse() * simulation.objects()[0].X_WO.translation();
   simulation.select_tool(tools::Tool::direct, 0);
   for (double t = sample; t < duration; t += sample) {
-    simulation.advance(t);
+    simulation.advance_to(t);
     if (t < 0.8) continue;  // the twist that it had goes with the DOFs that were switched off
     const RigidTransform X_WS = simulation.tool(0).X_WS;
     EXPECT_LT((X_WS * p_SO - simulation.objects()[0].X_WO.translation()).norm(), 1e-6) << t;

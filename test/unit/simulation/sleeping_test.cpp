@@ -23,7 +23,7 @@ void move(Simulation& simulation, const std::string& name, const Vector3d& p) {
   ObjectEdit edit;
   edit.action = ObjectEdit::Action::move;
   edit.name = name;
-  edit.X_WL = make_transform(Quaterniond::Identity(), p);
+  edit.X_WL = make_transform(p, Quaterniond::Identity());
   simulation.edit(edit);
 }
 
@@ -37,10 +37,10 @@ Simulation held_asleep(scene::ContactMode contact, double above_it) {
   simulation.push_stylus({0.0, pointing_down(above)});
   push_move(simulation, 0.02, 1.0, above, above + Vector3d(0.0, 0.0, 0.2));
   simulation.push_button(0.0, true);
-  simulation.advance(6.0);
+  simulation.advance_to(6.0);
   EXPECT_TRUE(object(simulation, "lower").held && object(simulation, "lower").asleep);
   move(simulation, "upper", object(simulation, "lower").X_WO.translation() + Vector3d(0.0, 0.0, 0.04 + above_it));
-  simulation.advance(9.0);
+  simulation.advance_to(9.0);
   return simulation;
 }
 
@@ -57,7 +57,7 @@ TEST_P(Sleeping, WhatLiesOnAHeldSleeperFallsWhenThatIsLetGo) {
     Simulation simulation = held_asleep(GetParam(), 1e-4);
     ASSERT_GT(height(simulation, "upper"), 0.2);
     by_button ? simulation.push_button(9.0, false) : static_cast<void>(simulation.release());
-    simulation.advance(12.0);
+    simulation.advance_to(12.0);
     EXPECT_LT(height(simulation, "upper"), 0.1) << by_button;
   }
 }
@@ -65,12 +65,12 @@ TEST_P(Sleeping, WhatLiesOnAHeldSleeperFallsWhenThatIsLetGo) {
 TEST_P(Sleeping, WhatLiesOnASleeperFallsWhenThatIsPlacedElsewhere) {
   Simulation simulation(boxes(GetParam()), SimulationSettings());
   simulation.push_stylus({0.0, pointing_down({0.0, 0.0, 1.0})});
-  simulation.advance(0.1);
+  simulation.advance_to(0.1);
   move(simulation, "upper", {0.0, 0.0, 0.0601});
-  simulation.advance(4.0);
+  simulation.advance_to(4.0);
   ASSERT_TRUE(object(simulation, "upper").asleep);
-  simulation.place({{"lower", make_transform(Quaterniond::Identity(), {-0.5, 0.0, 0.02})}});
-  simulation.advance(8.0);
+  simulation.place({{"lower", make_transform({-0.5, 0.0, 0.02}, Quaterniond::Identity())}});
+  simulation.advance_to(8.0);
   EXPECT_NEAR(height(simulation, "upper"), 0.02, 2e-4);
 }
 
@@ -78,7 +78,7 @@ TEST_P(Sleeping, WhatLiesOnAHeldSleeperFallsWhenTheHandIsElsewhereAfterAGap) {
   Simulation simulation = held_asleep(GetParam(), 1e-4);
   ASSERT_GT(height(simulation, "upper"), 0.2);
   simulation.push_stylus({9.02, pointing_down(above + Vector3d(0.4, 0.4, 0.3))});
-  simulation.advance(12.0);
+  simulation.advance_to(12.0);
   EXPECT_LT(height(simulation, "upper"), 0.1);
 }
 
@@ -94,13 +94,13 @@ TEST_P(Sleeping, WhatGetsAMassFallsAndWhatLosesItStops) {
     edit.mass = mass;
     simulation.edit(edit);
   };
-  simulation.advance(0.1);
+  simulation.advance_to(0.1);
   set_mass(0.0);
-  simulation.advance(1.0);
+  simulation.advance_to(1.0);
   EXPECT_EQ(object(simulation, "other").V_WO_W.linear.norm(), 0.0);
   EXPECT_GT(object(simulation, "other").X_WO.translation().z(), 0.4);
   set_mass(1.0);
-  simulation.advance(3.0);
+  simulation.advance_to(3.0);
   EXPECT_NEAR(object(simulation, "other").X_WO.translation().z(), 0.02, 1e-4);
 }
 
@@ -114,14 +114,14 @@ TEST(Buttons, ActAtTheirTimesInWhateverOrderTheyArePushed) {
   simulation.push_clutch(1.0, false);
   simulation.push_button(0.2, true);
   simulation.push_clutch(0.5, true);
-  simulation.advance(0.3);
+  simulation.advance_to(0.3);
   EXPECT_TRUE(object(simulation, "lower").held);
-  simulation.advance(0.7);
+  simulation.advance_to(0.7);
   EXPECT_TRUE(simulation.tool().clutch);
-  simulation.advance(1.5);
+  simulation.advance_to(1.5);
   EXPECT_FALSE(simulation.tool().clutch);
   EXPECT_TRUE(object(simulation, "lower").held);
-  simulation.advance(2.1);
+  simulation.advance_to(2.1);
   EXPECT_FALSE(object(simulation, "lower").held);
 }
 

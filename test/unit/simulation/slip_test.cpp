@@ -52,7 +52,7 @@ struct Pulled {
     simulation.push_button(0.0, true);
     double before = 0.0;
     for (int i = 1; i * step < 4.0; ++i) {
-      simulation.advance(i * step);
+      simulation.advance_to(i * step);
       EXPECT_TRUE(simulation.objects()[0].held) << i * step;
       const double force = simulation.tool().tip_wrench_W.force.norm();
       if (slip_test::gap(simulation) > 0.1) {  // nearer, it comes back faster than the hand does
@@ -94,7 +94,7 @@ TEST_P(Slip, TheToolReturnsToTheHand) {
   simulation.push_button(0.0, true);
   double widest = 0.0;
   for (int i = 1; i <= 300; ++i) {
-    simulation.advance(0.02 * i);
+    simulation.advance_to(0.02 * i);
     EXPECT_LE(simulation.tool().tip_wrench_W.force.norm(), 1.01 * 1.3 * g);
     widest = std::max(widest, gap(simulation));
   }
@@ -128,7 +128,7 @@ struct PulledByOneOfTwo {
     for (const std::size_t hand : {0u, 1u}) simulation.push_button(0.0, true, hand);
     double before = 0.0;
     for (int i = 1; i * step < 6.0; ++i) {
-      simulation.advance(i * step);
+      simulation.advance_to(i * step);
       for (const std::size_t hand : {0u, 1u}) EXPECT_EQ(simulation.tool(hand).held_object, "plate") << i * step;
       const double force = simulation.tool().tip_wrench_W.force.norm();
       EXPECT_LT(force, 1.01 * 25.0) << i * step;
@@ -170,13 +170,13 @@ TEST(SlipInTheAir, SeveralToolsSlipEachAtItsLimit) {
       push_move(simulation, 0.0, 2.0, hand, hand, 0.0, k);
       simulation.push_button(0.0, true, k);
     }
-    simulation.advance(0.6);
+    simulation.advance_to(0.6);
     const bodies::BodyState a = simulation.objects()[0];
     for (std::size_t k = 0; k < tools; ++k) {
       EXPECT_EQ(simulation.tool(k).held_object, "plate");
       EXPECT_NEAR(simulation.tool(k).tip_wrench_W.force.norm(), 12.0, 0.12);
     }
-    simulation.advance(0.8);
+    simulation.advance_to(0.8);
     const double acceleration = static_cast<double>(tools) * 12.0 / 5.0 - g;
     EXPECT_NEAR(simulation.objects()[0].V_WO_W.linear.z() - a.V_WO_W.linear.z(), 0.2 * acceleration, 1e-3) << tools;
   }
@@ -188,10 +188,10 @@ TEST(SlipInTheAir, TheObjectMovesAsNewtonSays) {
   Simulation simulation(scene, slipping_at(limit));
   push_move(simulation, 0.0, 2.0, Vector3d(0.0, 0.0, 0.7), Vector3d(0.0, 0.0, 0.7));
   simulation.push_button(0.0, true);
-  simulation.advance(0.6);
+  simulation.advance_to(0.6);
   const bodies::BodyState a = simulation.objects()[0];
   EXPECT_NEAR(simulation.tool().tip_wrench_W.force.norm(), limit, 1e-6);
-  simulation.advance(1.0);
+  simulation.advance_to(1.0);
   const bodies::BodyState b = simulation.objects()[0];
   const double acceleration = limit / 5.0 - g;
   EXPECT_NEAR(b.V_WO_W.linear.z() - a.V_WO_W.linear.z(), 0.4 * acceleration, 1e-3);
@@ -211,7 +211,7 @@ TEST(SlipInTheAir, TheMomentHasALimit) {
   int slipped = 0;
   double turned = 0.0;
   for (int i = 1; i <= 50; ++i) {
-    simulation.advance(0.02 * i);
+    simulation.advance_to(0.02 * i);
     const tools::ToolState f = simulation.tool();
     EXPECT_LT(f.tip_wrench_W.moment.norm(), 1.01 * 0.3);
     const double turn = math::turn_between(f.X_WH, f.X_WH_proxy).norm();
@@ -232,7 +232,7 @@ TEST(SlipInTheAir, WithoutALimitReachedItIsTheSame) {
     Simulation simulation(one_box(1.0, scene::ContactMode::stop), set);
     push_move(simulation, 0.0, 2.0, above, above + Vector3d(0.1, 0.0, 0.2), 0.5);
     simulation.push_button(0.0, true);
-    simulation.advance(2.0);
+    simulation.advance_to(2.0);
     return simulation.objects()[0].X_WO;
   };
   EXPECT_EQ(run(SimulationSettings()).matrix(), run(slipping_at(1e6)).matrix());

@@ -103,13 +103,13 @@ void act(Simulation& s, unsigned session, int k) {
     fork.damping_coefficient = {3.0, 2.0, 0.01};
     fork.damping_law = any<rod::DampingLaw>(random);
   }
-  if (!fork.empty()) s.change(fork, random() % s.hands());
+  if (!fork.empty()) s.change(fork, {}, random() % s.hands());
   if (chance(random, 0.05)) {
     DynamicsChange dynamics;
     dynamics.integrator = any<dynamics::IntegratorKind>(random);
     dynamics.step = chance(random, 0.5) ? 0.005 : 0.02;
     dynamics.tolerance = chance(random, 0.3) ? 1e-4 : 0.0;
-    s.change(dynamics);
+    s.change({}, dynamics);
   }
 }
 
@@ -117,7 +117,7 @@ Numbers go_on(Simulation& s, unsigned session, int from, int to, Seen* seen = nu
   Numbers out;
   for (int k = from; k < to; ++k) {
     act(s, session, k);
-    const AdvanceReport report = s.advance((k - 1) * slot);
+    const AdvanceReport report = s.advance_to((k - 1) * slot);
     append_outputs(s, report, out);
     if (seen == nullptr) continue;
     for (std::size_t hand = 0; hand < s.hands(); ++hand) {
@@ -150,11 +150,11 @@ void apply_random_action(Simulation& s, unsigned session, int k) {
       s.reset();
       break;
     case 1:
-      s.place({{"a", make_transform(Quaterniond::Identity(), Vector3d(0.0, 0.0, 0.3))}});
+      s.place({{"a", make_transform(Vector3d(0.0, 0.0, 0.3), Quaterniond::Identity())}});
       break;
     case 2:
       s.change({}, {dynamics::IntegratorKind::rk4, 0.001, 0.0});
-      s.advance(s.time() + 0.3);
+      s.advance_to(s.time() + 0.3);
       break;
     default:
       s.release();
@@ -224,8 +224,8 @@ TEST(State, EveryBitCounts) {
     Simulation s(boxes(scene::ContactMode::none), {});
     s.push_stylus({0.0, pointing_down(Vector3d(0, 0, 0.5))});
     s.push_stylus({t, pointing_down(Vector3d(0, 0, 0.5))});
-    s.advance(0.01);
-    s.place({{"a", make_transform(Quaterniond::Identity(), Vector3d(x, 0, 0.3))}});
+    s.advance_to(0.01);
+    s.place({{"a", make_transform(Vector3d(x, 0, 0.3), Quaterniond::Identity())}});
     ForkChange change;
     change.stiffness.stretch = stiffness;
     s.change(change);

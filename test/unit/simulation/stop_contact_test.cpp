@@ -81,7 +81,7 @@ Shifted shift(double bend, double sideways, double lowered) {
   const Vector3d start(0, 0, 0.02 + length), end(sideways, 0, 0.02 + length - lowered);
   push_move(s, 0.0, 0.4, start, end);
   push_move(s, 0.42, 0.8, end, end);
-  s.advance(0.8);
+  s.advance_to(0.8);
   const RigidTransform& X = s.objects()[0].X_WO;
   const Wrench& tip = s.tool().tip_wrench_W;
   return {tip.force.x(), tip.force.z(), std::acos(std::min(1.0, X.linear()(2, 2))),
@@ -144,7 +144,7 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
       double deepest = 0.0;
       int steps_blocked = 0;
       for (double t = 0.0; t < 1.2 + 1e-9; t += 0.005) {
-        steps_blocked += s.advance(t).steps_blocked;
+        steps_blocked += s.advance_to(t).steps_blocked;
         deepest = std::max(deepest, outside(s.objects()[0].X_WO, size, ceiling));
       }
       EXPECT_LT(deepest, 1e-5) << room << " " << k;
@@ -173,14 +173,14 @@ TEST(StopContact, AForkThatCannotFollowPressesByItsRuleAndBlocksNothing) {
         push_move(s, 0.0, 0.4, start, low);
         push_move(s, 0.42, 0.8, low, aside);
         push_move(s, 0.82, 3.0, aside, aside);
-        EXPECT_EQ(s.advance(0.4).steps_blocked, 0);
+        EXPECT_EQ(s.advance_to(0.4).steps_blocked, 0);
         double force = 0.0;
         for (const contact::ContactState& c : s.contacts()) force += c.force;
         EXPECT_NEAR(force, mass * pressed / (T * T), 0.05 * force)
             << dofs.bend << dofs.torsion << " " << mass << " " << step;
-        EXPECT_EQ(s.advance(1.0).steps_blocked, 0);
+        EXPECT_EQ(s.advance_to(1.0).steps_blocked, 0);
         const Vector3d p = s.objects()[0].X_WO.translation();
-        EXPECT_EQ(s.advance(3.0).steps_blocked, 0);
+        EXPECT_EQ(s.advance_to(3.0).steps_blocked, 0);
         EXPECT_LT((p - Vector3d(0, 0, 0.02)).norm(), 1e-5);
         EXPECT_LT((s.objects()[0].X_WO.translation() - p).norm(), 1e-6) << "creeps";
       }
@@ -212,7 +212,7 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   push_move(s, 4.02, 4.5, in, in);
   std::vector<double> force;  // on the wall while the peg goes down along it
   for (double t = 0.0; t < 4.5 + 1e-9; t += 0.02) {
-    EXPECT_EQ(s.advance(t).steps_blocked, 0) << t;
+    EXPECT_EQ(s.advance_to(t).steps_blocked, 0) << t;
     if (t < 2.3 || t > 3.7) continue;
     force.push_back(0.0);
     for (const contact::ContactState& c : s.contacts()) force.back() += std::abs(c.n_W.x()) * c.force;
@@ -235,12 +235,12 @@ TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
     SimulationSettings settings;
     settings.dynamics.step = 1e-3;
     Simulation simulation(scene, settings);
-    simulation.advance(0.0);
-    simulation.place({{"dropped", make_transform(Quaterniond::Identity(), Vector3d(0.0, 0.0, 0.5 * edge + height))}});
+    simulation.advance_to(0.0);
+    simulation.place({{"dropped", make_transform(Vector3d(0.0, 0.0, 0.5 * edge + height), Quaterniond::Identity())}});
     double highest = 0.0;
     const double down = std::sqrt(2.0 * height / 9.81), e = std::sqrt(of_box * 0.8);
     for (double t = 0.0; t < down * (1.0 + 1.9 * e); t += 1e-3) {
-      simulation.advance(t);
+      simulation.advance_to(t);
       if (t > 1.05 * down)
         highest = std::max(highest, object(simulation, "dropped").X_WO.translation().z() - 0.5 * edge);
     }
@@ -259,8 +259,8 @@ TEST(StopContact, TheErrorInEnergyKnowsTheWorkOfTheBench) {
   push_move(simulation, 0.0, 0.5, above, pressed);
   push_move(simulation, 1.0, 2.0, pressed, pressed + Vector3d(0.2, 0.0, 0.0));
   simulation.push_button(0.0, true);
-  simulation.advance(0.98);
-  const AdvanceReport report = simulation.advance(1.9);
+  simulation.advance_to(0.98);
+  const AdvanceReport report = simulation.advance_to(1.9);
   EXPECT_GT(simulation.tool().elastic_energy, 0.05);
   EXPECT_LT(report.energy_error, 2e-7);
   EXPECT_EQ(report.substeps, 0);
@@ -282,7 +282,7 @@ TEST(StopContact, ShortStepsGoTheWayOfLongOnes) {
     push_move(simulation, 0.12, 0.16, above + Vector3d(0.02, 0, -0.06), above + Vector3d(0.03, 0, -0.06));
     std::vector<double> z;
     for (int i = 1; i <= 7; ++i) {
-      EXPECT_EQ(simulation.advance(0.02 * i).steps_blocked, 0) << step;
+      EXPECT_EQ(simulation.advance_to(0.02 * i).steps_blocked, 0) << step;
       z.push_back(object(simulation, "box").X_WO.translation().z());
     }
     return z;

@@ -56,7 +56,7 @@ TEST_P(PressedAndShifted, Follow) {
       push_move(s, 1.02, 3.0, along, along);
       double hardest = mass * scene.gravity, least = 0.0;
       for (int i = 1; i <= 150; ++i) {
-        const AdvanceReport report = s.advance(0.02 * i);
+        const AdvanceReport report = s.advance_to(0.02 * i);
         EXPECT_EQ(report.steps_rejected, 0);
         EXPECT_EQ(report.steps_blocked, 0) << mass << " " << k << " " << i;
         const bodies::BodyState& o = s.objects()[0];
@@ -87,10 +87,10 @@ TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
                            box("upper", size, upper_mass, Vector3d(0.02, 0, 0.15))},
                           scene::ContactMode::stop),
                  SimulationSettings());
-    s.advance(0.0);
+    s.advance_to(0.0);
     s.place({{"lower", RigidTransform(Eigen::Translation3d(0, 0, 0.06))},
              {"upper", RigidTransform(Eigen::Translation3d(0.02, 0, 0.2))}});
-    for (int i = 1; i <= 100; ++i) EXPECT_EQ(s.advance(0.02 * i).steps_rejected, 0);
+    for (int i = 1; i <= 100; ++i) EXPECT_EQ(s.advance_to(0.02 * i).steps_rejected, 0);
     for (const bodies::BodyState& o : s.objects()) {
       EXPECT_TRUE(o.asleep) << o.name << " " << upper_mass;
       EXPECT_NEAR(o.X_WO.translation().z(), o.name == "lower" ? 0.05 : 0.15, 1e-5) << upper_mass;
@@ -117,7 +117,7 @@ TEST(StopExtremes, OnALedgeOfAFractionOfAMillimetreItRestsOrTurnsOff) {
       push_move(s, 0.52, 1.0, end, end);
       double hardest = 0.0;
       for (int i = 1; i <= 50; ++i) {
-        EXPECT_EQ(s.advance(0.02 * i).steps_blocked, 0) << tilt << " " << ledge << " " << i;
+        EXPECT_EQ(s.advance_to(0.02 * i).steps_blocked, 0) << tilt << " " << ledge << " " << i;
         double force = 0.0;
         for (const contact::ContactState& c : s.contacts()) force += c.force;
         hardest = std::max(hardest, force);
@@ -147,7 +147,7 @@ TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
       push_move(s, 0.52, 1.5, start, end);
       push_move(s, 1.52, 4.0, end, end);
       for (int i = 1; i <= 200; ++i) {
-        EXPECT_EQ(s.advance(0.02 * i).steps_rejected, 0);
+        EXPECT_EQ(s.advance_to(0.02 * i).steps_rejected, 0);
         const bodies::BodyState& o = s.objects()[0];
         ASSERT_TRUE(o.X_WO.matrix().allFinite());
         EXPECT_LT(depth_of(o.X_WO, 0.05 - overlap), overlap + 2e-5) << overlap << " " << k << " " << i;
@@ -169,7 +169,7 @@ TEST(StopExtremes, AMasslessOneFollowsTheHandAndStaysOutOfTheBench) {
   push_move(s, 0.52, 1.0, start + Vector3d(0.1, 0, -0.03), start + Vector3d(0.2, 0, 0.1));
   push_move(s, 1.02, 2.0, start + Vector3d(0.2, 0, 0.1), start + Vector3d(0.2, 0, 0.1));
   for (int i = 1; i <= 100; ++i) {
-    EXPECT_EQ(s.advance(0.02 * i).steps_rejected, 0);
+    EXPECT_EQ(s.advance_to(0.02 * i).steps_rejected, 0);
     ASSERT_TRUE(s.objects()[0].X_WO.matrix().allFinite());
     EXPECT_LT(depth_of(s.objects()[0].X_WO, 10.0), 1e-5) << i;
   }

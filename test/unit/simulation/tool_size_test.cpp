@@ -44,7 +44,7 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
         const Vector3d size = scale * Vector3d(0.1, 0.06, 0.04), tip = scale * grasp;
         const scene::Scene scene = one_box(size, mass);
         Simulation simulation = grasped(scene, settings(true), tip);
-        simulation.advance(0.0);
+        simulation.advance_to(0.0);
         const tools::ToolState fork = simulation.tool();
         ASSERT_EQ(fork.held_object, "box");
         EXPECT_NEAR(fork.length, fitting_length(scene), 1e-12);
@@ -54,7 +54,7 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
         EXPECT_NEAR(fork.X_WS.translation().z() - fork.X_WH.translation().z(), reach - fork.length, 1e-12);
         // Hanging at rest, straight under the hand: the static extension is the set part of the length.
         if (!grasp.isZero()) continue;
-        simulation.advance(8.0);
+        simulation.advance_to(8.0);
         EXPECT_NEAR(simulation.tool().stretch, 0.1 * fork.length, 1e-3 * fork.length) << scale << ", " << mass;
       }
     }
@@ -63,14 +63,14 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
 
 TEST(ToolSize, WithoutCalibrationTheForkKeepsItsLength) {
   Simulation simulation = grasped(one_box({0.1, 0.06, 0.04}, 1.0), settings(false), Vector3d::Zero());
-  simulation.advance(0.0);
+  simulation.advance_to(0.0);
   EXPECT_EQ(simulation.tool().length, reach);
   EXPECT_TRUE(simulation.tool().X_WH.matrix() == simulation.tool().X_WS.matrix());
 }
 
 TEST(ToolSize, AfterTheReleaseTheHandReachesAsFarAsBefore) {
   Simulation simulation = grasped(one_box({0.2, 0.2, 0.2}, 1.0), settings(true), Vector3d::Zero());
-  simulation.advance(0.0);
+  simulation.advance_to(0.0);
   EXPECT_GT(simulation.tool().length, 1.5 * reach);
   simulation.release();
   EXPECT_EQ(simulation.tool().length, reach);
@@ -86,13 +86,13 @@ TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
         set.fork.shape = test_support::shape_named(shape);
         set.fork.stiffness = {soft * 500.0, soft * 500.0, soft * 5.0};
         Simulation simulation = grasped(one_box({0.1, 0.06, 0.04}, 1.0), set, tip);
-        simulation.advance(10.0);
+        simulation.advance_to(10.0);
         const bodies::BodyState before = simulation.objects()[0];
         const Vector3d force = simulation.tool().tip_wrench_W.force;
         simulation.calibrate();
         EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-12);
         EXPECT_LT((simulation.tool().tip_wrench_W.force - force).norm(), 1e-4 * force.norm()) << shape << soft;
-        simulation.advance(12.0);
+        simulation.advance_to(12.0);
         EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-5) << shape << soft;
         const double sag = 0.1 * simulation.tool().length;
         if (tip.isZero()) {
@@ -112,11 +112,11 @@ TEST(ToolSize, CalibratingInMotionJumpsNeitherInPoseNorInTwist) {
     const Vector3d from = start + Vector3d(0.03, 0.01, reach);
     push_move(simulation, 0.0, 1.0, from, from + Vector3d(0.3, 0.1, 0.2), 1.0);
     simulation.push_button(0.0, true);
-    simulation.advance(0.5);
+    simulation.advance_to(0.5);
     const bodies::BodyState before = simulation.objects()[0];
     simulation.calibrate();
     constexpr double h = 1e-6;
-    simulation.advance(0.5 + h);
+    simulation.advance_to(0.5 + h);
     const bodies::BodyState& after = simulation.objects()[0];
     EXPECT_LT((after.X_WO.translation() - before.X_WO.translation() - h * before.V_WO_W.linear).norm(), 1e-9);
     EXPECT_LT((after.V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-3);

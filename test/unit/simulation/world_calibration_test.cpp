@@ -28,12 +28,12 @@ tools::ToolState at_rest(const scene::Scene& scene, const std::string& name, con
   SimulationSettings settings = to_world();
   settings.contact = scene::ContactMode::none;
   settings.grasp.object = name;
-  settings.grasp.X_OE = make_transform(Quaterniond::Identity(), tip_O);
+  settings.grasp.X_OE = make_transform(tip_O, Quaterniond::Identity());
   settings.grasp.start_follow = true;
   Simulation simulation(scene, settings);
-  const RigidTransform hand = make_transform(Quaterniond(math::exp_so3(turn)), Vector3d(0.0, 0.0, 1.0));
+  const RigidTransform hand = make_transform(Vector3d(0.0, 0.0, 1.0), Quaterniond(math::exp_so3(turn)));
   for (const double t : {0.0, 0.1}) simulation.push_stylus({t, hand});
-  simulation.advance(6.0);
+  simulation.advance_to(6.0);
   return simulation.tool();
 }
 
@@ -97,7 +97,7 @@ TEST(WorldCalibration, ThreeHundredVirtualKilogramsAreLiftedByAPullOfFortyCentim
   push_move(simulation, 0.0, 1.5, from, from + Vector3d(0.0, 0.0, 0.4));
   simulation.push_button(0.0, true);
   int rejected = 0;
-  for (double t = 0.02; t < 5.0; t += 0.02) rejected += simulation.advance(t).steps_rejected;
+  for (double t = 0.02; t < 5.0; t += 0.02) rejected += simulation.advance_to(t).steps_rejected;
   EXPECT_NEAR(object(simulation, "three_hundred").X_WO.translation().z(), 0.04 + 0.4 - 0.3 * 0.2, 2e-3);
   EXPECT_NEAR(simulation.tool().stretch, 0.3 * 0.2, 1e-4);
   EXPECT_EQ(rejected, 0);
@@ -111,12 +111,12 @@ TEST(WorldCalibration, TheForkStaysAndComesBack) {
   const Vector3d from = object(simulation, "ten").X_WO.translation() + Vector3d(0.0, 0.0, 0.2);
   push_move(simulation, 0.0, 1.0, from, from + Vector3d(0.0, 0.0, 0.3));
   simulation.push_button(0.0, true);
-  simulation.advance(4.0);
+  simulation.advance_to(4.0);
   EXPECT_EQ(simulation.fork_settings().stiffness.stretch, stiffness);
   EXPECT_NEAR(simulation.tool().stretch, 0.3 * 0.2 * 10.0 / 300.0, 1e-5);
   ForkChange change;
   change.stiffness.stretch = 0.5 * stiffness;
-  simulation.change(change, 0);
+  simulation.change(change, {}, 0);
   const Vector3d before = object(simulation, "ten").X_WO.translation();
   simulation.calibrate();
   EXPECT_EQ(simulation.fork_settings().stiffness.stretch, stiffness);

@@ -102,7 +102,7 @@ TEST(Paper, EnergyOfItsOscillatorsNeverGrowsWhereTheTargetStays) {
     HeldBody held(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, 1e-6 * k / m);
     held.set_springs({k, k, 0.01 * k}, {zeta, zeta, zeta});
     const motion::MotionSegment rest(
-        make_transform(Quaterniond(math::exp_so3(Vector3d(1.0, 0.5, 0.0))), Vector3d::Zero()));
+        make_transform(Vector3d::Zero(), Quaterniond(math::exp_so3(Vector3d(1.0, 0.5, 0.0)))));
     StrainState at_rest = held.zero_state(), state = held.zero_state();
     HeldBody damped = held;
     damped.set_springs({k, k, 0.01 * k}, {1.0, 1.0, 1.0});
@@ -145,18 +145,18 @@ RigidTransform pose(Hand hand, double t, std::mt19937& random) {
   std::normal_distribution<double> normal;
   switch (hand) {
     case Hand::jump:
-      return make_transform(Quaterniond::Identity(), Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0));
+      return make_transform(Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0), Quaterniond::Identity());
     case Hand::flip:
-      return make_transform(Quaterniond(math::exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))), Vector3d::Zero());
+      return make_transform(Vector3d::Zero(), Quaterniond(math::exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))));
     case Hand::tremor: {
       const Vector3d p(normal(random), normal(random), normal(random));
-      return make_transform(Quaterniond::Identity(), 1e-3 * p);
+      return make_transform(1e-3 * p, Quaterniond::Identity());
     }
     case Hand::lissajous:
-      return make_transform(Quaterniond(math::exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))),
-                            on_sines);
+      return make_transform(
+          on_sines, Quaterniond(math::exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))));
     case Hand::dropout:
-      return make_transform(Quaterniond::Identity(), t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3));
+      return make_transform(t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3), Quaterniond::Identity());
   }
   return RigidTransform::Identity();
 }
@@ -226,7 +226,7 @@ TEST(Paper, SelectsTheFirstBodyInFront) {
   for (const double reaches : {0.3, 0.9, 1.1}) {
     HeldBody held(rod::make_shape_model(rod::ShapeKind::linear, 0.2), body, 9.81);
     held.set_springs({500.0, 500.0, 5.0}, {1.0, 1.0, 1.0});
-    const motion::MotionSegment hanging(make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d::Zero()));
+    const motion::MotionSegment hanging(make_transform(Vector3d::Zero(), Quaterniond(0.0, 1.0, 0.0, 0.0)));
     const double sag = 9.81 / 500.0, floor = -0.2 - reaches * sag;
     int asked = 0;
     held.set_path_check([&](const RigidTransform&, const RigidTransform& X1_WO) {
@@ -257,7 +257,7 @@ TEST(Paper, WithoutStiffnessTheObjectIsFree) {
     HeldBody held(rod::make_shape_model(rod::ShapeKind::linear, 0.2), body, 9.81);
     held.set_springs({k, 500.0, 5.0}, {1.0, 1.0, 1.0});
     StrainState state = switch_dofs(held, 1);
-    const motion::MotionSegment hanging(make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d::Zero()));
+    const motion::MotionSegment hanging(make_transform(Vector3d::Zero(), Quaterniond(0.0, 1.0, 0.0, 0.0)));
     const auto integrator = paper();
     for (int i = 0; i < 10; ++i) integrator->step(held, hanging, 0.05 * i, 0.05, state);
     EXPECT_NEAR(held.shape().extension(held.full_state(0.5, state).q), 0.5 * 9.81 * 0.25, 1e-3 * (k > 0.0) + 1e-12);

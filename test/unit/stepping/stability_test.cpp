@@ -28,18 +28,18 @@ RigidTransform pose(Hand hand, double t, std::mt19937& random) {
   std::normal_distribution<double> normal;
   switch (hand) {
     case Hand::lissajous:
-      return make_transform(Quaterniond(math::exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))),
-                            on_sines);
+      return make_transform(
+          on_sines, Quaterniond(math::exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))));
     case Hand::jump:
-      return make_transform(Quaterniond::Identity(), Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0));
+      return make_transform(Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0), Quaterniond::Identity());
     case Hand::flip:
-      return make_transform(Quaterniond(math::exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))), Vector3d::Zero());
+      return make_transform(Vector3d::Zero(), Quaterniond(math::exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))));
     case Hand::dropout:
-      return make_transform(Quaterniond::Identity(), t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3));
+      return make_transform(t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3), Quaterniond::Identity());
     case Hand::noise: {
       const Vector3d p(normal(random), normal(random), normal(random)),
           w(normal(random), normal(random), normal(random));
-      return make_transform(Quaterniond(math::exp_so3(M_PI / 180.0 * w)), 1e-3 * p);
+      return make_transform(1e-3 * p, Quaterniond(math::exp_so3(M_PI / 180.0 * w)));
     }
   }
   return RigidTransform::Identity();

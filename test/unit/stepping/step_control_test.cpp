@@ -34,7 +34,7 @@ std::vector<motion::MotionSegment> sampled_hand(double duration, std::mt19937& r
   motion::PoseTrack track;
   for (double t = 0.0; t < duration + 0.5 * sample_interval; t += sample_interval) {
     const Vector3d s = (rate * t + phase).array().sin();
-    track.push({t, make_transform(Quaterniond(math::exp_so3(turn.cwiseProduct(s))), width.cwiseProduct(s))});
+    track.push({t, make_transform(width.cwiseProduct(s), Quaterniond(math::exp_so3(turn.cwiseProduct(s))))});
   }
   std::vector<motion::MotionSegment> segments;
   for (double t = 0.0; t < duration - 0.5 * sample_interval; t += sample_interval) segments.push_back(track.segment(t));
@@ -345,7 +345,7 @@ TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
   motion::PoseTrack track;
   for (int i = 0; i < 12; ++i) {
     const Vector3d by(normal(random), normal(random), normal(random));
-    track.push({0.004 * i, make_transform(Quaterniond(math::exp_so3(0.05 * by)), 0.01 * by)});
+    track.push({0.004 * i, make_transform(0.01 * by, Quaterniond(math::exp_so3(0.05 * by)))});
   }
   for (const double stiffness : {1e3, 1e9, 1e15}) {
     Case c = random_case(test_support::shape_names().front(), 1.0, 1.0, random);
@@ -380,8 +380,8 @@ class CarriesNothing final : public Integrator {
     if (++steps_ > 1000) throw std::runtime_error("steps without end");
     return method_->step(body, handle, t, h, state);
   }
-  void carry(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&, const StrainState&,
-             StrainState& deviation) override {
+  void propagate_deviation(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&,
+                           const StrainState&, StrainState& deviation) override {
     deviation.q.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 

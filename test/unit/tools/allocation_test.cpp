@@ -25,7 +25,7 @@ motion::MotionSegment hand_at(double t, const Vector3d& from, double phase) {
   const auto sample = [&](double at) {
     const Vector3d p = from + 0.03 * Vector3d(std::sin(5.0 * at + phase), std::sin(3.0 * at), std::cos(4.0 * at));
     const Matrix3d turned = math::exp_so3(0.2 * std::sin(4.0 * at + phase) * Vector3d(0.6, 0.0, 0.8));
-    return motion::PoseSample{at, make_transform(Quaterniond(turned) * Quaterniond(0.0, 1.0, 0.0, 0.0), p)};
+    return motion::PoseSample{at, make_transform(p, Quaterniond(turned) * Quaterniond(0.0, 1.0, 0.0, 0.0))};
   };
   const motion::PoseSample a = sample(t), b = sample(t + interval);
   const Vector3d v = (b.X.translation() - a.X.translation()) / interval, w = math::turn_between(a.X, b.X) / interval;

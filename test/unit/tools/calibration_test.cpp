@@ -50,7 +50,7 @@ struct Held {
       integrator->step(held, motion::MotionSegment(hand), t, h, state);
   }
   double extension() const { return held.shape().extension(state.q); }
-  double twist() const { return std::abs(held.shape().twist(state.q)); }
+  double twist() const { return std::abs(held.shape().torsion_angle(state.q)); }
   double deflection() const { return held.shape().section(state.q, length).translation().head<2>().norm(); }
 
   dynamics::HeldBody held;

@@ -43,7 +43,7 @@ class Outbox {
     ros::Time stamp;
     std::size_t revision = 0;
     double sent = -1.0;  ///< [s], by the steady clock
-    bool due(const live::Moment& moment);
+    bool due(const live::Progress& progress);
   };
   void run();
 

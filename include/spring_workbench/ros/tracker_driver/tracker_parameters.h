@@ -18,7 +18,7 @@ inline RigidTransform default_head_pose() {
   const Vector3d p(0.0, -0.85, 0.7), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
   Matrix3d R;
   R << x, y, x.cross(y);
-  return make_transform(Quaterniond(R), p);
+  return make_transform(p, Quaterniond(R));
 }
 
 /// Private parameters of the node `tracker_driver`.

@@ -50,14 +50,14 @@ RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::str
   validation::check_number(where, "translation.z", p.z, position);
   const Quaterniond rotation(q.w, q.x, q.y, q.z);
   validation::check_number(where, "norm of rotation", rotation.norm(), validation::between(0.5, 2.0));
-  return make_transform(rotation, Vector3d(p.x, p.y, p.z));
+  return make_transform(Vector3d(p.x, p.y, p.z), rotation);
 }
 
 live::Entry to_entry(const Accepted& message) {
-  hand_input::Accepted accepted;
+  hand_input::AcceptedInput accepted;
   validation::check_number("~accepted", "kind", message.kind, validation::between(0, Accepted::EXTERNAL_WRENCH));
   validation::check_number("~accepted", "stylus", message.stylus, validation::between(1, 255));
-  accepted.kind = static_cast<hand_input::Accepted::Kind>(message.kind);
+  accepted.kind = static_cast<hand_input::AcceptedInput::Kind>(message.kind);
   accepted.hand = message.stylus - 1u;
   accepted.t = message.time;
   accepted.committed = message.committed;

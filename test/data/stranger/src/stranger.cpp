@@ -12,9 +12,9 @@ int main(int, char** argv) {
   settings.grasp.object = "box";
   simulation::Simulation simulation(scene::load_scene(argv[1]), settings);
   for (const double t : {0.0, 10.0}) {
-    simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.23})});
+    simulation.push_stylus({t, make_transform({0.0, 0.0, 0.23}, Quaterniond(0.0, 1.0, 0.0, 0.0))});
   }
-  simulation.advance(10.0);
+  simulation.advance_to(10.0);
   ForkState message;
   message.held_object = simulation.tool().held_object;
   message.stretch = simulation.tool().stretch;
