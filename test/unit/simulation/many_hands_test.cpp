@@ -69,7 +69,7 @@ std::vector<bodies::BodyState> carried_by_three(const std::vector<std::size_t>& 
     simulation.push_button(0.02 * static_cast<double>(k), true, number[k]);
     ForkChange springs;
     springs.stiffness.stretch = 1000.0 * static_cast<double>(k + 1);
-    simulation.change(springs, number[k]);
+    simulation.change(springs, {}, number[k]);
   }
   std::vector<bodies::BodyState> path;
   for (double t = 0.1; t < 1.5; t += 0.05) {

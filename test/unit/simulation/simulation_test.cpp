@@ -292,7 +292,7 @@ TEST_F(Switching, EveryIntegratorTakesOver) {
     const dynamics::IntegratorKind kind = test_support::integrator_named(name);
     DynamicsChange change;
     change.integrator = kind;
-    simulation.change(change);
+    simulation.change({}, change);
     EXPECT_EQ(simulation.tool().integrator, kind);
     EXPECT_EQ(simulation.settings().dynamics.step, 0.02);
   }
@@ -455,7 +455,7 @@ TEST_F(Switching, BadValuesChangeNothing) {
     DynamicsChange change;
     change.integrator = dynamics::IntegratorKind::rk4;
     change.step = step;
-    EXPECT_THROW(simulation.change(change), validation::InputError);
+    EXPECT_THROW(simulation.change({}, change), validation::InputError);
     ForkChange good;
     good.stiffness.bend = 700.0;
     EXPECT_THROW(simulation.change(good, change), validation::InputError);
@@ -463,7 +463,7 @@ TEST_F(Switching, BadValuesChangeNothing) {
   for (const double tolerance : {-1e-6, 0.2, nan}) {
     DynamicsChange change;
     change.tolerance = tolerance;
-    EXPECT_THROW(simulation.change(change), validation::InputError);
+    EXPECT_THROW(simulation.change({}, change), validation::InputError);
   }
   EXPECT_EQ(simulation.settings().dynamics.integrator, dynamics::IntegratorKind::exponential);
   EXPECT_EQ(simulation.fork_settings().stiffness.bend, 500.0);
