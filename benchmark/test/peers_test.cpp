@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <map>
 
 #include "benchmark/error_table.h"
 #include "benchmark/ode_solver.h"
@@ -179,6 +181,28 @@ TEST(SteppingLoop, LongStepsAreInterpolatedToTheirOrder) {
     };
     EXPECT_NEAR(std::log2(error(4.0) / error(2.0)), 4.0, 0.7);
     EXPECT_LT(error(2.0), 16.0 * 1.5 * error(1.0));
+  }
+}
+
+TEST(Peers, MujocoHasItsFastImplicitModeSince233AndItsResultsAreThoseOfTheOtherWithOneCoordinate) {
+  // The modes differ in the derivatives of Coriolis forces, which one coordinate does not have.
+  std::array<int, 3> version{};
+  for (const std::string& found : peers().found) {
+    std::sscanf(found.c_str(), "MuJoCo %d.%d.%d", &version[0], &version[1], &version[2]);
+  }
+  if (version == std::array<int, 3>{}) GTEST_SKIP() << "MuJoCo was not found";
+  std::map<std::string, RunResult> runs;
+  for (const MethodPtr& method : peers().methods) {
+    if (method->name().find("mujoco_joints_implicit") != 0) continue;
+    runs[method->name()] = method->run(stretch_scene(1e4), 1e-3);
+  }
+  const std::size_t expected = version >= std::array<int, 3>{2, 3, 3} ? 2 : 1;
+  ASSERT_EQ(runs.size(), expected);
+  const auto is_fast = [](const DragMethod& drag) { return drag.name == "mujoco_joints_implicitfast"; };
+  EXPECT_EQ(std::count_if(peers().drags.begin(), peers().drags.end(), is_fast), static_cast<long>(expected) - 1);
+  for (const auto& [name, run] : runs) {
+    ASSERT_TRUE(run.finite) << name;
+    EXPECT_LT((run.outputs.back() - runs.begin()->second.outputs.back()).norm(), 1e-9) << name;
   }
 }
 
