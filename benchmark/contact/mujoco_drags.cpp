@@ -49,8 +49,13 @@ class MujocoDrag final : public DragWorld {
  public:
   MujocoDrag(const DragScene& scene, double step, mjtIntegrator integrator, bool tuned)
       : scene_(scene), world_(model_of(scene, step, tuned)) {
-    world_.model->opt.timestep = step;
-    world_.model->opt.integrator = integrator;
+    mjModel& model = *world_.model;
+    model.opt.timestep = step;
+    model.opt.integrator = integrator;
+    // MuJoCo's solver takes them as multiples of the mean inertia, which is not to be the hand's.
+    const double box_over_mean = scene.mass / model.stat.meaninertia;
+    model.opt.tolerance *= box_over_mean;
+    model.opt.noslip_tolerance *= box_over_mean;
     place_hand(0.0);
   }
 
