@@ -47,7 +47,7 @@ void measure(const std::vector<std::string>& names) {
 std::optional<std::vector<std::string>> parse(int argc, char** argv) {
   std::vector<std::string> names(argv + 1, argv + argc);
   if (std::find(names.begin(), names.end(), "--help") != names.end()) return std::nullopt;
-  if (names.empty()) validation::refuse_missing(config::command_line, "METHOD", "names of methods of the report");
+  if (names.empty()) validation::refuse(config::command_line, "METHOD", "names of methods of the report");
   return names;
 }
 
