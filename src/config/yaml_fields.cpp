@@ -33,6 +33,25 @@ bool is_scalar(const YAML::Node& node) { return node.IsDefined() && node.IsScala
   validation::refuse(place(node, where), key, node_text(node), rule);
 }
 
+std::vector<double> read_numbers(const YAML::Node& node, const std::string& where, const std::string& key,
+                                 std::size_t count, const std::string& rule) {
+  std::vector<double> values;
+  if (node.IsDefined() && node.IsSequence()) {
+    for (const YAML::Node& item : node) {
+      double value = 0.0;
+      if (!item.IsScalar() || !YAML::convert<double>::decode(item, value)) refuse_node(node, where, key, rule);
+      values.push_back(value);
+    }
+  } else if (is_scalar(node)) {
+    std::istringstream in(node.Scalar());
+    for (double value = 0.0; in >> value;) values.push_back(value);
+    if (!in.eof()) refuse_node(node, where, key, rule);
+  }
+  const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (values.size() != count || !finite) refuse_node(node, where, key, rule);
+  return values;
+}
+
 }  // namespace
 
 std::string place(const YAML::Node& node, const std::string& where) {
@@ -78,28 +97,14 @@ std::string read_choice(const YAML::Node& node, const std::string& where, const 
 
 std::vector<double> read_numbers(const YAML::Node& node, const std::string& where, const std::string& key,
                                  std::size_t count) {
-  const std::string rule = std::to_string(count) + " finite numbers";
-  std::vector<double> values;
-  if (node.IsDefined() && node.IsSequence()) {
-    for (const YAML::Node& item : node) {
-      double value = 0.0;
-      if (!item.IsScalar() || !YAML::convert<double>::decode(item, value)) refuse_node(node, where, key, rule);
-      values.push_back(value);
-    }
-  } else if (is_scalar(node)) {
-    std::istringstream in(node.Scalar());
-    for (double value = 0.0; in >> value;) values.push_back(value);
-    if (!in.eof()) refuse_node(node, where, key, rule);
-  }
-  const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-  if (values.size() != count || !finite) refuse_node(node, where, key, rule);
-  return values;
+  return read_numbers(node, where, key, count, std::to_string(count) + " finite numbers");
 }
 
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key) {
-  const std::vector<double> v = read_numbers(node, where, key, 7);
+  const std::string rule = "x y z qx qy qz qw (7 finite numbers, the quaternion nonzero)";
+  const std::vector<double> v = read_numbers(node, where, key, 7, rule);
   const Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(q.norm() > 1e-6)) refuse_node(node, where, key, "x y z qx qy qz qw with a nonzero quaternion");
+  if (!(q.norm() > 1e-6)) refuse_node(node, where, key, rule);
   return make_transform(q, Vector3d(v[0], v[1], v[2]));
 }
 

@@ -14,8 +14,29 @@
 namespace spring_workbench::manipulation {
 namespace {
 
+const std::string too_old = motion::to_string(motion::StampResult::too_old);
+const std::string from_the_future = motion::to_string(motion::StampResult::from_the_future);
+
 std::string place_of(const geometry_msgs::TransformStamped& transform) {
   return place(transform.header.frame_id, transform.child_frame_id);
+}
+
+/// What is wrong with a stamp of this age [s], by the reason for which it is rejected.
+std::string complaint_about_stamp(const std::string& reason, double age, double max_age) {
+  std::ostringstream text;
+  text << "stamp: ";
+  if (reason == too_old) {
+    text << age << " s old, more than max_age = " << max_age
+         << " s (does a bag play without --clock and use_sim_time, or do the clocks of two hosts differ?)";
+  } else if (reason == from_the_future && -age > max_age) {
+    text << -age << " s ahead of now, more than max_age = " << max_age
+         << " s (do the clocks of two hosts differ?)";
+  } else if (reason == from_the_future) {
+    text << "ahead of the others of its stream by more than 0.1 s (was the sender's clock set?)";
+  } else {
+    text << "before the newest of its stream by more than 0.1 s (is it sent out of order, or by two nodes?)";
+  }
+  return text.str();
 }
 
 }  // namespace
@@ -118,8 +139,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
 void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
   if ((poses_.newest - transform.header.stamp).toSec() > SimulatedClock::slip) early_poses_.keep(transform);
-  if (std::abs(age) > parameters_.max_age)
-    return reject_stamp(transform, age > 0.0 ? "too old" : "from the future", age);
+  if (std::abs(age) > parameters_.max_age) return reject_stamp(transform, age > 0.0 ? too_old : from_the_future, age);
   if (use(transform, ros_common::nanoseconds_of(transform.header.stamp), age)) {
     advance_stream(transform.header.stamp, poses_, early_poses_);
   }
@@ -149,10 +169,7 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
 void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason,
                                double age) {
   statistics_.newest_offer_age = age;
-  std::ostringstream line;
-  line << place_of(transform) << "stamp: expected one within max_age = " << parameters_.max_age
-       << " s of now and continue its stream (a bag needs --clock and use_sim_time), got an age of " << age << " s";
-  rejections_.add(reason, line.str());
+  rejections_.add(reason, place_of(transform) + complaint_about_stamp(reason, age, parameters_.max_age));
 }
 
 void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {
