@@ -11,17 +11,7 @@
 namespace spring_workbench::manipulation {
 
 using diagnostic_msgs::DiagnosticStatus;
-namespace {
-
-/// How far a count has risen: "dropouts: 2 (7 since the start)".
-template <typename Count>
-std::string increase(const std::string& what, Count before, Count now) {
-  std::ostringstream text;
-  text << what << ": " << now - before << " (" << now << " since the start)";
-  return text.str();
-}
-
-}  // namespace
+using ros_common::increase;
 
 std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std::string>& senders,
                              const std::string& stylus_frame) {

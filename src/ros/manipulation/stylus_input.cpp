@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "constants.h"
@@ -14,29 +13,8 @@
 namespace spring_workbench::manipulation {
 namespace {
 
-const std::string too_old = motion::to_string(motion::StampResult::too_old);
-const std::string from_the_future = motion::to_string(motion::StampResult::from_the_future);
-
 std::string place_of(const geometry_msgs::TransformStamped& transform) {
   return place(transform.header.frame_id, transform.child_frame_id);
-}
-
-/// What is wrong with a stamp of this age [s], by the reason for which it is rejected.
-std::string complaint_about_stamp(const std::string& reason, double age, double max_age) {
-  std::ostringstream text;
-  text << "stamp: ";
-  if (reason == too_old) {
-    text << age << " s old, more than max_age = " << max_age
-         << " s (does a bag play without --clock and use_sim_time, or do the clocks of two hosts differ?)";
-  } else if (reason == from_the_future && -age > max_age) {
-    text << -age << " s ahead of now, more than max_age = " << max_age
-         << " s (do the clocks of two hosts differ?)";
-  } else if (reason == from_the_future) {
-    text << "ahead of the others of its stream by more than 0.1 s (was the sender's clock set?)";
-  } else {
-    text << "before the newest of its stream by more than 0.1 s (is it sent out of order, or by two nodes?)";
-  }
-  return text.str();
 }
 
 }  // namespace
@@ -127,7 +105,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
       [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
       [&](const geometry_msgs::TransformStamped& one, motion::StampResult result, double age) {
         if (result == motion::StampResult::held_up) return rejections_.count(motion::to_string(result));
-        reject_stamp(one, motion::to_string(result), age);
+        reject_stamp(one, result, age);
       });
   if (const double host_set = wall_poses_.take_host_steps(); host_set != 0.0)
     ROS_WARN("this host's clock was set, or the host was suspended: %.3g s are treated as an offset", host_set);
@@ -139,7 +117,9 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
 void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
   if ((poses_.newest - transform.header.stamp).toSec() > SimulatedClock::slip) early_poses_.keep(transform);
-  if (std::abs(age) > parameters_.max_age) return reject_stamp(transform, age > 0.0 ? too_old : from_the_future, age);
+  using motion::StampResult;
+  if (std::abs(age) > parameters_.max_age)
+    return reject_stamp(transform, age > 0.0 ? StampResult::too_old : StampResult::from_the_future, age);
   if (use(transform, ros_common::nanoseconds_of(transform.header.stamp), age)) {
     advance_stream(transform.header.stamp, poses_, early_poses_);
   }
@@ -166,10 +146,10 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
   return true;
 }
 
-void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason,
+void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, motion::StampResult result,
                                double age) {
   statistics_.newest_offer_age = age;
-  rejections_.add(reason, place_of(transform) + complaint_about_stamp(reason, age, parameters_.max_age));
+  rejections_.add(motion::to_string(result), place_of(transform) + motion::complaint(result, age, parameters_.max_age));
 }
 
 void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {
