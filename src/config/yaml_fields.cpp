@@ -1,7 +1,9 @@
 #include "spring_workbench/config/yaml_fields.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -151,11 +153,10 @@ void check_extent(const YAML::Node& node, const std::string& path, int depth, lo
 
 YAML::Node load_yaml_file(const std::string& path) {
   std::ifstream file(path);
+  if (!file) validation::refuse("", path, std::string("a readable YAML file (") + std::strerror(errno) + ")");
   std::ostringstream text;
   if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // copying an empty file would fail
-  if (!file.is_open() || file.bad() || text.fail()) {
-    validation::refuse("", path, "a readable YAML file");
-  }
+  if (file.bad() || text.fail()) validation::refuse("", path, "a readable YAML file");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
     if (documents.size() > 1)

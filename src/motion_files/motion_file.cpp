@@ -1,6 +1,8 @@
 #include "spring_workbench/motion_files/motion_file.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <locale>
 #include <sstream>
@@ -68,7 +70,7 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
 
 std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
   std::ifstream file(path);
-  if (!file) validation::refuse("", path, "a readable motion file");
+  if (!file) validation::refuse("", path, std::string("a readable motion file (") + std::strerror(errno) + ")");
   std::vector<motion::StylusSample> samples;
   std::size_t fields = 0;
   long double first_stamp = 0.0L;

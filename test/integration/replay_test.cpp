@@ -234,7 +234,8 @@ TEST_F(Replay, BadArgumentsAreRefusedWithOneLine) {
       {good + "--settings none.yaml", {"none.yaml"}},
       {"--scene none.urdf --motion hand.tum --out run.csv", {"none.urdf"}},
       {"--scene hand.tum --motion hand.tum --out run.csv", {"hand.tum"}},
-      {"--scene box.urdf --motion none.tum --out run.csv", {"none.tum: expected a readable motion file"}},
+      {"--scene box.urdf --motion none.tum --out run.csv",
+       {"none.tum: expected a readable motion file (No such file or directory)"}},
       {"--scene box.urdf --motion hand.tum --out none/run.csv", {"none/run.csv", "cannot be written"}},
       {"--scene box.urdf --motion hand.tum --out .", {"cannot be written"}},
   };
