@@ -285,7 +285,8 @@ def brief_panel(axes, lines, **settings):
             name, colour, end, shift = BRIEF[method]
             ours = name.startswith("ours")
             look = dict(linewidth=3.5, zorder=3) if ours else dict(linewidth=1.8, zorder=2)
-            draw_line(axes, line, color=colour, marker="o", markersize=5, linestyle=":" if method == PAPER else "-", **look)
+            look.update(color=colour, marker="o", markersize=5, linestyle=":" if method == PAPER else "-")
+            draw_line(axes, line, **look)
             place = dict(xytext=shift, textcoords="offset points", annotation_clip=True)
             axes.annotate(name, line[end], color=colour, weight="bold" if ours else "normal", fontsize=13, **place)
     log_axes(axes, **settings)

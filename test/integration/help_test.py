@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every program and node says what it is for `--help` and `-h`, in lines that a terminal shows, and ends, even without a ROS master. Usage: help_test.py
-PROGRAM..."""
+"""Every program and node says what it is for `--help` and `-h`, in lines that a terminal shows, and ends, even without
+a ROS master. Usage: help_test.py PROGRAM..."""
 import os
 import subprocess
 import sys

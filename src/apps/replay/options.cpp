@@ -112,8 +112,8 @@ Example, in the root of the repository: the demo's hand, with a stiffer fork
 )";
 
 const char* const output_text =
-    R"(Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless grasp.object
-names an object, which the first hand then holds; the buttons are then ignored.
+    R"(Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless
+grasp.object names an object, which the first hand then holds; the buttons are then ignored.
 
 RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
   t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
