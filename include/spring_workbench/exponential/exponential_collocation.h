@@ -28,7 +28,6 @@ class ExponentialCollocation {
   /// Replaces the linear part.
   void set(const ModalDecomposition& modes) {
     part_.set(modes);
-    lengths_.fill(0.0);
     known_.fill(false);
   }
   const Part& part() const { return part_; }
