@@ -1,14 +1,12 @@
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <stdexcept>
+#include <utility>
 
 #include "benchmark/held_body.h"
 #include "benchmark/mujoco_models.h"
+#include "benchmark/mujoco_world.h"
 #include "benchmark/peers.h"
 #include "benchmark/single_spring.h"
 #include "benchmark/stepping_loop.h"
@@ -16,47 +14,29 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-/// A compiled model and its data, with the time step of a run.
-class MujocoWorld {
+/// A world with the time step of a run.
+class SceneWorld {
  public:
-  MujocoWorld(const std::string& xml, const Scenario& scene, double step) {
-    mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
-    auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(xml.size()));
-    std::memcpy(files->filedata[0], xml.data(), xml.size());
-    std::array<char, 500> error{};
-    model_ = mj_loadXML("model.xml", files.get(), error.data(), static_cast<int>(error.size()));
-    mj_deleteVFS(files.get());
-    if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
-    model_->opt.timestep = step_length(scene, step);
-    data_ = mj_makeData(model_);
+  SceneWorld(const std::string& xml, const Scenario& scene, double step) : world_(xml) {
+    model().opt.timestep = step_length(scene, step);
   }
-  ~MujocoWorld() {
-    mj_deleteData(data_);
-    mj_deleteModel(model_);
-  }
-  MujocoWorld(const MujocoWorld&) = delete;
-  MujocoWorld& operator=(const MujocoWorld&) = delete;
 
-  mjModel& model() { return *model_; }
-  mjData& data() { return *data_; }
+  mjModel& model() { return *world_.model; }
+  mjData& data() { return *world_.data; }
   /// One step from time `t`, which is set because MuJoCo's own sum accumulates rounding errors.
   void step(double t) {
-    data_->time = t;
-    mj_step(model_, data_);
+    data().time = t;
+    mj_step(&model(), &data());
   }
 
   /// Whether MuJoCo reset the state because it was no longer finite or bounded.
   bool was_reset() const {
-    return data_->warning[mjWARN_BADQPOS].number + data_->warning[mjWARN_BADQVEL].number +
-               data_->warning[mjWARN_BADQACC].number >
-           0;
+    const auto& warnings = world_.data->warning;
+    return warnings[mjWARN_BADQPOS].number + warnings[mjWARN_BADQVEL].number + warnings[mjWARN_BADQACC].number > 0;
   }
 
  private:
-  mjModel* model_ = nullptr;
-  mjData* data_ = nullptr;
+  MujocoWorld world_;
 };
 
 Vector3d not_a_result() { return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
@@ -97,7 +77,7 @@ class MujocoForce : public Method {
   std::string name() const override { return integrator_ == mjINT_RK4 ? "mujoco_rk4" : "mujoco_euler"; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    MujocoWorld world(mujoco_object_model(scene), scene, step);
+    SceneWorld world(mujoco_object_model(scene), scene, step);
     world.model().opt.integrator = integrator_;
     write_start(scene, world.data());
     const SingleSpring spring(scene);
@@ -143,14 +123,12 @@ RememberedState MujocoForce::hand_;
 /// three hinges, so the law is not the scene's in C.
 class MujocoJoints : public Method {
  public:
-  explicit MujocoJoints(mjtIntegrator integrator) : integrator_(integrator) {}
-  std::string name() const override {
-    return integrator_ == mjINT_EULER ? "mujoco_joints_euler" : "mujoco_joints_implicit";
-  }
+  MujocoJoints(std::string name, mjtIntegrator integrator) : name_(std::move(name)), integrator_(integrator) {}
+  std::string name() const override { return name_; }
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    MujocoWorld world(mujoco_joint_model(scene), scene, step);
+    SceneWorld world(mujoco_joint_model(scene), scene, step);
     world.model().opt.integrator = integrator_;
     mjData& data = world.data();
     return stepping_loop(
@@ -188,6 +166,7 @@ class MujocoJoints : public Method {
     return hand.p_WT + hand.R_WT * (Vector3d(q[0], q[1], q[2]) + R_TE * scene.p_EO);
   }
 
+  std::string name_;
   mjtIntegrator integrator_;
 };
 
@@ -201,7 +180,7 @@ class MujocoWeld : public Method {
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    MujocoWorld world(mujoco_weld_model(scene), scene, step);
+    SceneWorld world(mujoco_weld_model(scene), scene, step);
     mjData& data = world.data();
     const BodyState start = start_state(scene);
     write_free_joint(start.p_WO, start.R_WO.toRotationMatrix(), start.v_WO_W, start.w_WO_O, data.qpos, data.qvel);
@@ -246,8 +225,9 @@ std::vector<MethodPtr> mujoco_peers() {
   std::vector<MethodPtr> peers;
   peers.push_back(std::make_unique<MujocoForce>(mjINT_EULER));
   peers.push_back(std::make_unique<MujocoForce>(mjINT_RK4));
-  peers.push_back(std::make_unique<MujocoJoints>(mjINT_EULER));
-  peers.push_back(std::make_unique<MujocoJoints>(mjINT_IMPLICIT));
+  for (const auto& [name, integrator] : mujoco_joint_modes()) {
+    peers.push_back(std::make_unique<MujocoJoints>(name, integrator));
+  }
   peers.push_back(std::make_unique<MujocoWeld>());
   return peers;
 }

@@ -25,7 +25,7 @@ std::vector<MethodPtr> solver_peers();
 std::vector<MethodPtr> bullet_peers();
 
 /// MuJoCo: the spring as a passive force (Euler, RK4), joints with springs and dampers on a driven hand (Euler with
-/// implicit joint damping, implicit), and a weld to a mocap body.
+/// implicit joint damping, implicit and, in MuJoCo 2.3.3 or later, implicitfast), and a weld to a mocap body.
 std::vector<MethodPtr> mujoco_peers();
 
 /// ODE: motors whose target velocity and CFM make an implicit spring-damper of given stiffness and damping.

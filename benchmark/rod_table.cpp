@@ -189,17 +189,15 @@ class Line {
     return run_simulated(one, shape_, method_, step, setting.tolerance);
   }
   bool is_ours_to_tolerance(const Setting& setting) const { return ours_ && setting.tolerance > 0.0; }
-  /// Whether the run time at this setting is compared.
-  bool is_compared_in(const Setting& setting) const {
-    return has_peers(case_, shape_) && !is_ours_to_tolerance(setting) && is_compared(method_, ours_);
-  }
+  /// Whether run times on this line are compared with those of other methods.
+  bool has_compared_times() const { return has_peers(case_, shape_) && is_compared(method_, ours_); }
+  bool is_compared_in(const Setting& setting) const { return has_compared_times() && !is_ours_to_tolerance(setting); }
   /// Runs that are compared are all made in a child process.
   RodRun timed(const Setting& setting, int runs) const {
-    const Repetition repetition{is_compared_in(setting) ? runs : 1, plan_.repetition.seconds};
+    const Repetition repetition{has_compared_times() ? runs : 1, plan_.repetition.seconds};
     const auto repeated = [&] { return fastest(repetition, [&] { return run(case_, setting); }); };
     if (setting.step > 0.0 && !is_compared_in(setting)) return repeated();
-    return run_in_time(plan_.tolerance_time_limit,
-                       [&] { return is_ours_to_tolerance(setting) ? run(case_, setting) : repeated(); });
+    return run_in_time(plan_.tolerance_time_limit, repeated);
   }
 
   /// Whether no finer step or tolerance is needed.

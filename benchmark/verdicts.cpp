@@ -310,6 +310,41 @@ void cost_of_a_step(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
+/// What runs of `method` to a tolerance cost and how far below it they end, beside fixed steps on the same rod.
+void tolerance_beside_steps(const Measurements& m, const std::string& method, std::vector<Verdict>& out) {
+  int kept = 0, count = 0, cheap = 0, compared = 0;
+  double dearest = 0.0;
+  std::string where;
+  for (const ErrorRow& row : m.rods) {
+    if (row.tolerance <= 0.0 || row.method != method || !row.finite) continue;
+    const auto beside = [&](const ErrorRow& other) {
+      return other.scene == row.scene && other.shape == row.shape && other.method == method && other.step > 0.0;
+    };
+    double longest = std::numeric_limits<double>::infinity();  // steps that a second takes with the longest ones
+    for (const ErrorRow& other : m.rods) {
+      if (beside(other) && other.finite) longest = std::min(longest, other.steps_per_second);
+    }
+    const bool longer_are_open = row.steps_per_second > longest;
+    ++count;
+    kept += row.error_over_tolerance <= 3.0 && (row.error_over_tolerance >= 0.01 || !longer_are_open);
+    const std::optional<double> fixed = run_time_for_error(curve(m.rods, beside, &ErrorRow::error), row.error);
+    if (!fixed || row.error <= 0.0) continue;
+    const double ratio = row.wall_us_per_simulated_second / *fixed;
+    ++compared;
+    cheap += ratio <= 1.5;
+    if (ratio > dearest) where = row.scene + ", " + row.shape + ", " + text(row.tolerance);
+    dearest = std::max(dearest, ratio);
+  }
+  const std::string claim = "Tolerance mode, " + method + ", all rods";
+  out.push_back(judged(claim + ", errors of the runs", "≤ 3 × the tolerance; ≥ 0.01 × where longer steps were open",
+                       std::to_string(kept) + " of " + std::to_string(count), kept == count));
+  if (compared == 0) return;
+  out.push_back(judged(
+      claim + ", run time", "≤ 1.5 × that of fixed steps with the same error",
+      std::to_string(cheap) + " of " + std::to_string(compared) + "; at most " + text(dearest) + "× (" + where + ")",
+      cheap == compared));
+}
+
 void tolerance(const Measurements& m, std::vector<Verdict>& out) {
   std::set<std::string> methods;
   for (const ErrorRow& row : m.rods) {
@@ -336,6 +371,7 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
                              " no more than 3 above; " + text(least) + " … " + text(largest) + " of it; " +
                              std::to_string(given_up) + " took too long",
                          within == count));
+    tolerance_beside_steps(m, method, out);
   }
 }
 

@@ -105,8 +105,11 @@ void bind_scene(py::module& module) {
           },
           "Mass of each movable object [kg], by name.")
       .def_readonly("warnings", &Scene::warnings, "Warnings about what was repaired on loading, one line each.");
-  module.def("load_scene", &scene::load_scene, py::arg("path"), py::arg("roots") = std::vector<std::string>{},
-             R"(Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.
+  module.def(
+      "load_scene",
+      [](const std::string& path, const std::vector<std::string>& roots) { return scene::load_scene(path, roots); },
+      py::arg("path"), py::arg("roots") = std::vector<std::string>{},
+      R"(Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.
 
 roots: folders; if any are given, all files that the scene names must lie below one of them or in a ROS package.
 Raises InputError if a file cannot be read or is not valid.)");

@@ -1,12 +1,8 @@
-#include <mujoco/mujoco.h>
-
-#include <array>
-#include <cstring>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 #include "benchmark/contact/box_engines.h"
+#include "benchmark/mujoco_world.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -48,42 +44,25 @@ std::string model_of(const BoxScene& s, double step, bool stiff) {
 
 class MujocoBoxWorld final : public BoxWorld {
  public:
-  MujocoBoxWorld(const BoxScene& scene, double step, bool stiff) : scene_(scene) {
-    mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
-    const std::string xml = model_of(scene, step, stiff);
-    auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    mj_makeEmptyFileVFS(files.get(), "boxes.xml", static_cast<int>(xml.size()));
-    std::memcpy(files->filedata[0], xml.data(), xml.size());
-    std::array<char, 500> error{};
-    model_ = mj_loadXML("boxes.xml", files.get(), error.data(), static_cast<int>(error.size()));
-    mj_deleteVFS(files.get());
-    if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
-    data_ = mj_makeData(model_);
-    mj_forward(model_, data_);
+  MujocoBoxWorld(const BoxScene& scene, double step, bool stiff) : scene_(scene), world_(model_of(scene, step, stiff)) {
+    mj_forward(world_.model.get(), world_.data.get());
   }
-  ~MujocoBoxWorld() override {
-    mj_deleteData(data_);
-    mj_deleteModel(model_);
-  }
-  MujocoBoxWorld(const MujocoBoxWorld&) = delete;
-  MujocoBoxWorld& operator=(const MujocoBoxWorld&) = delete;
 
   void step(double t, double h) override {
     if (!scene_.held.empty()) {
       const RigidTransform X = scene_.X_WO(t + h);
       const Quaterniond q(X.linear());
-      for (int i = 0; i < 3; ++i) data_->mocap_pos[i] = X.translation()[i];
-      data_->mocap_quat[0] = q.w();
-      for (int i = 0; i < 3; ++i) data_->mocap_quat[i + 1] = q.vec()[i];
+      for (int i = 0; i < 3; ++i) world_.data->mocap_pos[i] = X.translation()[i];
+      world_.data->mocap_quat[0] = q.w();
+      for (int i = 0; i < 3; ++i) world_.data->mocap_quat[i + 1] = q.vec()[i];
     }
-    mj_step(model_, data_);
+    mj_step(world_.model.get(), world_.data.get());
   }
   std::vector<RigidTransform> poses() const override {
-    mj_kinematics(model_, data_);  // otherwise they are those of the start of the step
+    mj_kinematics(world_.model.get(), world_.data.get());  // otherwise they are those of the start of the step
     std::vector<RigidTransform> poses;
     for (std::size_t i = 1; i <= scene_.scene.bodies.size(); ++i) {
-      const mjtNum *p = data_->xpos + 3 * i, *q = data_->xquat + 4 * i;
+      const mjtNum *p = world_.data->xpos + 3 * i, *q = world_.data->xquat + 4 * i;
       poses.push_back(make_transform(Vector3d(p[0], p[1], p[2]), Quaterniond(q[0], q[1], q[2], q[3])));
     }
     return poses;
@@ -91,8 +70,7 @@ class MujocoBoxWorld final : public BoxWorld {
 
  private:
   BoxScene scene_;
-  mjModel* model_ = nullptr;
-  mjData* data_ = nullptr;
+  MujocoWorld world_;
 };
 
 }  // namespace

@@ -1,12 +1,8 @@
-#include <mujoco/mujoco.h>
-
-#include <array>
-#include <cstring>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 #include "benchmark/contact/drag.h"
+#include "benchmark/mujoco_world.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -51,36 +47,25 @@ std::string model_of(const DragScene& s, double step, bool tuned) {
 
 class MujocoDrag final : public DragWorld {
  public:
-  MujocoDrag(const DragScene& scene, double step, mjtIntegrator integrator, bool tuned) : scene_(scene) {
-    mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
-    const std::string xml = model_of(scene, step, tuned);
-    auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    mj_makeEmptyFileVFS(files.get(), "drag.xml", static_cast<int>(xml.size()));
-    std::memcpy(files->filedata[0], xml.data(), xml.size());
-    std::array<char, 500> error{};
-    model_ = mj_loadXML("drag.xml", files.get(), error.data(), static_cast<int>(error.size()));
-    mj_deleteVFS(files.get());
-    if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
-    model_->opt.timestep = step;
-    model_->opt.integrator = integrator;
-    data_ = mj_makeData(model_);
+  MujocoDrag(const DragScene& scene, double step, mjtIntegrator integrator, bool tuned)
+      : scene_(scene), world_(model_of(scene, step, tuned)) {
+    mjModel& model = *world_.model;
+    model.opt.timestep = step;
+    model.opt.integrator = integrator;
+    // MuJoCo's solver takes them as multiples of the mean inertia, which is not to be the hand's.
+    const double box_over_mean = scene.mass / model.stat.meaninertia;
+    model.opt.tolerance *= box_over_mean;
+    model.opt.noslip_tolerance *= box_over_mean;
     place_hand(0.0);
   }
-  ~MujocoDrag() override {
-    mj_deleteData(data_);
-    mj_deleteModel(model_);
-  }
-  MujocoDrag(const MujocoDrag&) = delete;
-  MujocoDrag& operator=(const MujocoDrag&) = delete;
 
   void step(double t, double h) override {
     place_hand(t);
-    mj_step(model_, data_);
+    mj_step(world_.model.get(), world_.data.get());
     place_hand(t + h);
   }
   RigidTransform box() const override {
-    const mjtNum* q = data_->qpos;
+    const mjtNum* q = world_.data->qpos;
     const Matrix3d R = !scene_.turns
                            ? Matrix3d::Identity().eval()
                            : (Eigen::AngleAxisd(q[6], Vector3d::UnitX()) * Eigen::AngleAxisd(q[7], Vector3d::UnitY()) *
@@ -92,15 +77,15 @@ class MujocoDrag final : public DragWorld {
  private:
   void place_hand(double t) {
     const DragHand hand = drag_hand(scene_, t);
-    Eigen::Map<Vector3d>{data_->qpos} = hand.p_W;
-    Eigen::Map<Vector3d>{data_->qvel} = hand.v_W;
+    Eigen::Map<Vector3d>{world_.data->qpos} = hand.p_W;
+    Eigen::Map<Vector3d>{world_.data->qvel} = hand.v_W;
     // The armature has no weight, but the mass of 1 kg does.
-    Eigen::Map<Vector3d>{data_->qfrc_applied} = (hand_inertia + 1.0) * hand.a_W + scene_.gravity * Vector3d::UnitZ();
+    Eigen::Map<Vector3d>{world_.data->qfrc_applied} =
+        (hand_inertia + 1.0) * hand.a_W + scene_.gravity * Vector3d::UnitZ();
   }
 
   DragScene scene_;
-  mjModel* model_ = nullptr;
-  mjData* data_ = nullptr;
+  MujocoWorld world_;
 };
 
 }  // namespace
@@ -111,9 +96,10 @@ std::vector<DragMethod> mujoco_drags() {
       return std::make_unique<MujocoDrag>(scene, step, integrator, tuned);
     };
   };
-  return {{"mujoco_joints_euler", true, make(mjINT_EULER, false)},
-          {"mujoco_joints_implicit", true, make(mjINT_IMPLICIT, false)},
-          {"mujoco_joints_implicit_tuned", true, make(mjINT_IMPLICIT, true)}};
+  std::vector<DragMethod> drags;
+  for (const auto& [name, integrator] : mujoco_joint_modes()) drags.push_back({name, true, make(integrator, false)});
+  drags.push_back({"mujoco_joints_implicit_tuned", true, make(mjINT_IMPLICIT, true)});
+  return drags;
 }
 
 }  // namespace spring_workbench::benchmark

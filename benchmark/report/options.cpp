@@ -58,7 +58,7 @@ std::optional<ReportOptions> parse_report_options(int argc, char** argv) {
       if (i + 1 >= argc || *argv[i + 1] == '\0') validation::refuse(kWhere, argument, rule);
       return std::string(argv[++i]);
     };
-    if (argument == "--help") return std::nullopt;
+    if (argument == "--help" || argument == "-h") return std::nullopt;
     if (argument == "--quick") {
       options.quick = true;
     } else if (argument == "--out") {

@@ -5,6 +5,8 @@ Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE HAND    a colum
        plot_report.py overview rod_table.csv PICTURE.png contact_drag.csv
                                                                     the default rod, soft and stiff, light and heavy,
                                                                     beside general methods; contact beside engines
+       plot_report.py brief    rod_table.csv PICTURE.png contact_drag.csv
+                                                                    the same with fewer lines, named at their ends
        plot_report.py recording recording.csv PICTURE.png           a line per integrator
        plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
@@ -163,35 +165,56 @@ def load_name(mass):
     return f"{1e3 * mass:g} g" if mass < 1.0 else f"{mass:g} kg"
 
 
-def rod_panel(axes, rows, name):
-    """The default method and the general ones on a rod under a tracked hand. The paper's method does not solve the
-    equation of motion; an upper bound of its error is drawn: its error against its own limit plus that limit's."""
+def rod_lines(rows, name):
+    """Fork and load, what the samples leave open, and the lines of the default method, the general ones and the
+    paper's on a rod under a tracked hand. The paper's method does not solve the equation of motion; an upper bound of
+    its error is drawn: its error against its own limit plus that limit's."""
     here = [row for row in rows if row["scene"] == name and row["shape"] == "linear"]
-    line = points([row for row in here if row["method"] == DEFAULT], "error_over_largest_deflection")
-    draw_line(axes, line, color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"ours ({DEFAULT})")
-    for i, method in enumerate(sorted({row["method"] for row in rows if row["method"].startswith(SOLVERS)})):
-        line = points([row for row in here if row["method"] == method], "error_over_largest_deflection")
-        look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.2, markersize=5, zorder=2)
-        draw_line(axes, line, label=method[len(SOLVERS) :].replace("_", " "), **look)
-    paper = [
+    general = sorted({row["method"] for row in rows if row["method"].startswith(SOLVERS)})
+    lines = {
+        method: points([row for row in here if row["method"] == method], "error_over_largest_deflection")
+        for method in [DEFAULT] + general
+    }
+    lines[PAPER] = [
         (float(r[TIME]), (float(r["error"]) + float(r["model_error"])) / float(r["largest_deflection"]))
         for r in here
         if r["method"] == PAPER
     ]
-    draw_line(axes, paper, color="black", marker="*", linewidth=1.2, markersize=6, linestyle=":", label=PAPER)
+    factor, mass = float(here[0]["stiffness_factor"]), float(here[0]["mass"])
+    fork = "default fork" if factor == 1.0 else f"{power_of_ten(factor)} times as stiff"
     left = float(here[0]["hand_error"]) / float(here[0]["largest_deflection"])
+    return f"{fork}, {load_name(mass)}", left, lines
+
+
+def rod_panel(axes, rows, name):
+    title, left, lines = rod_lines(rows, name)
+    draw_line(
+        axes, lines[DEFAULT], color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"ours ({DEFAULT})"
+    )
+    for i, method in enumerate(method for method in lines if method.startswith(SOLVERS)):
+        look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.2, markersize=5, zorder=2)
+        draw_line(axes, lines[method], label=method[len(SOLVERS) :].replace("_", " "), **look)
+    draw_line(axes, lines[PAPER], color="black", marker="*", linewidth=1.2, markersize=6, linestyle=":", label=PAPER)
     if left > 0.0:
         axes.axhline(left, color="#7f7f7f", linestyle="--", linewidth=1.2, label="left open by the samples")
         place = dict(transform=axes.transAxes, color="#5f5f5f", fontsize=9)
         axes.text(0.03, 0.03, f"samples leave {left:.3g}", **place)
-    factor, mass = float(here[0]["stiffness_factor"]), float(here[0]["mass"])
-    fork = "default fork" if factor == 1.0 else f"{power_of_ten(factor)} times as stiff"
-    log_axes(axes, title=f"{fork}, {load_name(mass)}", ylim=(1e-11, 10.0))
+    log_axes(axes, title=title, ylim=(1e-11, 10.0))
+
+
+def drag_line(rows, method, factor, box):
+    return [
+        (float(r["cpu_us_per_simulated_second"]), max(1e-2 * float(r["lag_error_percent"]), LEAST_ERROR))
+        for r in rows
+        if r["finite"] == "1"
+        and float(r["stiffness_factor"]) == factor
+        and r["method"] == method
+        and r["box"] == box
+    ]
 
 
 def drag_panel(axes, rows, factor):
     """A box pressed on a plane and dragged, by us (bold) and the engines; dotted if the box cannot turn."""
-    here = [r for r in rows if r["finite"] == "1" and float(r["stiffness_factor"]) == factor]
     ours = ("stop", "dynamic")
     for i, method in enumerate(in_order(row["method"] for row in rows)):
         if method in ours:
@@ -200,11 +223,7 @@ def drag_panel(axes, rows, factor):
             colour = PEERS[(i - len(ours)) % len(PEERS)]
             look = dict(color=colour, linewidth=1.2, markersize=5, marker=MARKERS[i % len(MARKERS)], zorder=2)
         for box in ("turns", "cannot turn"):
-            line = [
-                (float(r["cpu_us_per_simulated_second"]), max(1e-2 * float(r["lag_error_percent"]), LEAST_ERROR))
-                for r in here
-                if r["method"] == method and r["box"] == box
-            ]
+            line = drag_line(rows, method, factor, box)
             if box == "turns":
                 look["linestyle"] = "--" if method == "dynamic" else "-"
                 look["label"] = f"ours ({method})" if method in ours else method.replace("_", " ")
@@ -240,6 +259,62 @@ def overview(table, picture, drags):
     figure.text(0.33, 0.012, notes, ha="center", fontsize=9.5)
     figure.text(0.815, 0.012, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
     figure.savefig(picture, dpi=140)
+
+
+BRIEF = {  # the lines of `brief` that are named: colour, the point that bears the name, and how far from it
+    DEFAULT: ("ours", OURS[0], 0, (-40, -15)),
+    PAPER: ("paper", "black", -1, (0, 6)),
+    "solver_cvode_bdf": ("CVODE", "#9467bd", 0, (2, 6)),
+    "solver_radau": ("Radau", "#8c8c00", 0, (-46, -14)),
+    "solver_rk4": ("RK4", "#e07000", 0, (-28, -16)),
+    "stop": ("ours: stop", OURS[0], 0, (-10, -18)),
+    "dynamic": ("ours: dynamic", OURS[0], 0, (-76, -18)),
+    "ode_erp_cfm": ("ODE", "#8c8c00", 0, (-2, 6)),
+    "bullet_spring2": ("Bullet", "#1f77b4", 0, (-16, 7)),
+    "mujoco_joints_implicit": ("MuJoCo", "#9467bd", -1, (-12, -15)),
+    "dart_joint_springs": ("DART", "#2ca02c", -1, (-2, -14)),
+}
+
+
+def brief_panel(axes, lines, **settings):
+    """Lines by method: those of BRIEF in colour, with their names, all others in grey."""
+    for method, line in lines.items():
+        if method not in BRIEF:
+            draw_line(axes, line, color="#cccccc", linewidth=1.0, marker=".", markersize=4, zorder=1)
+        elif line:
+            name, colour, end, shift = BRIEF[method]
+            ours = name.startswith("ours")
+            look = dict(linewidth=3.5, zorder=3) if ours else dict(linewidth=1.8, zorder=2)
+            look.update(color=colour, marker="o", markersize=5, linestyle=":" if method == PAPER else "-")
+            draw_line(axes, line, **look)
+            place = dict(xytext=shift, textcoords="offset points", annotation_clip=True)
+            axes.annotate(name, line[end], color=colour, weight="bold" if ours else "normal", fontsize=13, **place)
+    log_axes(axes, **settings)
+
+
+def brief(table, picture, drags):
+    """The panels of `overview` in large letters, with contact at one stiffness."""
+    rows, contact_rows = by_step(read(table)), read(drags)
+    pyplot.rc("font", size=12)
+    figure = pyplot.figure(figsize=(12.0, 7.0))
+    cells = figure.add_gridspec(2, 3)
+    names = ("soft_light", "stiff_light", "soft_heavy", "stiff_heavy")
+    for name, cell in zip(names, (cells[0, 0], cells[0, 1], cells[1, 0], cells[1, 1])):
+        axes = figure.add_subplot(cell)
+        title, left, lines = rod_lines(rows, name)
+        brief_panel(axes, lines, title=title, xlim=(30, 3e5), ylim=(1e-12, 100.0))
+        axes.axhline(left, color="#5f5f5f", linestyle="--")
+        if name.startswith("soft"):
+            axes.set_ylabel("largest error / deflection")
+    axes = figure.add_subplot(cells[:, 2])
+    lines = {
+        method: drag_line(contact_rows, method, 1.0, "turns") for method in in_order(r["method"] for r in contact_rows)
+    }
+    brief_panel(axes, lines, title="dragged over the bench, 5 kg", xlim=(60, 3e5), ylim=(1e-12, 100.0))
+    axes.set_ylabel("error of the lag / lag")
+    figure.supxlabel("run time [µs per simulated second]")
+    figure.tight_layout()
+    figure.savefig(picture, dpi=110)
 
 
 def recording(table, picture):
@@ -551,6 +626,7 @@ KINDS = {
     "contact": contact,
     "scene": scene,
     "overview": overview,
+    "brief": brief,
     "recording": recording,
     "rods": rods,
     "shapes": shapes,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 
@@ -179,6 +180,31 @@ TEST(SteppingLoop, LongStepsAreInterpolatedToTheirOrder) {
     };
     EXPECT_NEAR(std::log2(error(4.0) / error(2.0)), 4.0, 0.7);
     EXPECT_LT(error(2.0), 16.0 * 1.5 * error(1.0));
+  }
+}
+
+TEST(Peers, MujocoHasItsFastImplicitModeSince233AndItStepsAsEulerWhereOnlyJointsAreDamped) {
+  std::array<int, 3> version{};
+  for (const std::string& found : peers().found) {
+    std::sscanf(found.c_str(), "MuJoCo %d.%d.%d", &version[0], &version[1], &version[2]);
+  }
+  if (version == std::array<int, 3>{}) GTEST_SKIP() << "MuJoCo was not found";
+  const auto is_fast = [](const std::string& name) { return name == "mujoco_joints_implicitfast"; };
+  const Method *euler = nullptr, *fast = nullptr;
+  for (const MethodPtr& method : peers().methods) {
+    if (method->name() == "mujoco_joints_euler") euler = method.get();
+    if (is_fast(method->name())) fast = method.get();
+  }
+  const bool has_fast = version >= std::array<int, 3>{2, 3, 3};
+  ASSERT_EQ(fast != nullptr, has_fast);
+  EXPECT_EQ(std::count_if(peers().drags.begin(), peers().drags.end(), [&](const auto& d) { return is_fast(d.name); }),
+            has_fast ? 1 : 0);
+  if (!has_fast) return;
+  // Both take the joints' damping implicitly, and leave out how Coriolis forces change with velocity.
+  for (const Scenario& scene : {stretch_scene(1e4), torsion_scene(1.0), six_dof_scene(1.0)}) {
+    const RunResult a = euler->run(scene, 1e-3), b = fast->run(scene, 1e-3);
+    ASSERT_TRUE(a.finite && b.finite) << scene.name;
+    EXPECT_LT((a.outputs.back() - b.outputs.back()).norm(), 1e-9) << scene.name;
   }
 }
 

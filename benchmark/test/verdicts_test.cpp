@@ -428,8 +428,40 @@ TEST(Verdicts, ToleranceIsKeptWhereEveryErrorIsWithinThreeBothWaysAndNoneWasGive
     measured.rods[1].error_over_tolerance = share;
     measured.rods[1].given_up = given_up;
     measured.rods[1].finite = !given_up;
-    EXPECT_EQ(result_of(measured, "Tolerance mode, exponential"), held ? kPass : kFail) << share << given_up;
+    EXPECT_EQ(result_of(measured, "Tolerance mode, exponential, all rods, at"), held ? kPass : kFail)
+        << share << given_up;
   }
+}
+
+TEST(Verdicts, AToleranceIsJudgedBesideFixedSteps) {
+  const auto judge = [](double share, double steps_per_second, double run_time, const std::string& claim) {
+    Measurements measured;
+    ErrorRow row;
+    row.scene = "soft_6dof";
+    row.method = "exponential";
+    row.ours = row.finite = true;
+    for (const double step : {0.02, 0.01}) {  // errors of 1e-4 and 1e-6 in 100 and 200 µs
+      row.step = step;
+      row.steps_per_second = 1.0 / step;
+      row.wall_us_per_simulated_second = 2.0 / step;
+      row.error = step > 0.015 ? 1e-4 : 1e-6;
+      measured.rods.push_back(row);
+    }
+    row.step = 0.0;
+    row.tolerance = 1e-5 / share;
+    row.error = 1e-5;  // of fixed steps: in 141 µs
+    row.error_over_tolerance = share;
+    row.steps_per_second = steps_per_second;
+    row.wall_us_per_simulated_second = run_time;
+    measured.rods.push_back(row);
+    return result_of(measured, "Tolerance mode, exponential, all rods, " + claim);
+  };
+  EXPECT_EQ(judge(1.0, 70.0, 210.0, "run time"), kPass);
+  EXPECT_EQ(judge(1.0, 70.0, 214.0, "run time"), kFail);
+  EXPECT_EQ(judge(0.011, 70.0, 100.0, "errors"), kPass);
+  EXPECT_EQ(judge(0.009, 70.0, 100.0, "errors"), kFail);
+  EXPECT_EQ(judge(0.009, 50.0, 100.0, "errors"), kPass);  // no longer steps are open
+  EXPECT_EQ(judge(3.1, 50.0, 100.0, "errors"), kFail);
 }
 
 TEST(Verdicts, OneCellThatFailsByTheMapsOwnRuleIsEnoughForTheMapNotToHold) {

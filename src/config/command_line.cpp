@@ -26,8 +26,9 @@ bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& 
   known.push_back({});
   opterr = 0;
   int found = 0;
-  for (int code; (code = getopt_long(argc, argv, ":", known.data(), &found)) != -1;) {
+  for (int code; (code = getopt_long(argc, argv, ":h", known.data(), &found)) != -1;) {
     const std::string word = optind > 0 && optind <= argc ? argv[optind - 1] : "";
+    if (code == 'h') return false;
     if (code == ':') validation::refuse(command_line, word, "a value");
     if (code != 0) {
       throw validation::InputError(std::string(command_line) + ": " + validation::one_line(word) +
@@ -44,7 +45,8 @@ bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& 
 }
 
 bool print_node_help(int argc, char** argv, const std::string& name, const std::string& what) {
-  if (std::find(argv + 1, argv + argc, std::string("--help")) == argv + argc) return false;
+  if (std::none_of(argv + 1, argv + argc, [](const std::string& a) { return a == "--help" || a == "-h"; }))
+    return false;
   std::cout
       << name << ": " << what << "\nA ROS node without options. doc/reference.md describes its parameters, topics "
       << "and services; the files in launch\nset the parameters, e.g. roslaunch spring_workbench workbench.launch.\n";

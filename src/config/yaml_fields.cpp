@@ -1,7 +1,9 @@
 #include "spring_workbench/config/yaml_fields.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -31,6 +33,25 @@ bool is_scalar(const YAML::Node& node) { return node.IsDefined() && node.IsScala
                               const std::string& rule) {
   if (!node.IsDefined()) validation::refuse_missing(where, key, rule);
   validation::refuse(place(node, where), key, node_text(node), rule);
+}
+
+std::vector<double> read_numbers(const YAML::Node& node, const std::string& where, const std::string& key,
+                                 std::size_t count, const std::string& rule) {
+  std::vector<double> values;
+  if (node.IsDefined() && node.IsSequence()) {
+    for (const YAML::Node& item : node) {
+      double value = 0.0;
+      if (!item.IsScalar() || !YAML::convert<double>::decode(item, value)) refuse_node(node, where, key, rule);
+      values.push_back(value);
+    }
+  } else if (is_scalar(node)) {
+    std::istringstream in(node.Scalar());
+    for (double value = 0.0; in >> value;) values.push_back(value);
+    if (!in.eof()) refuse_node(node, where, key, rule);
+  }
+  const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (values.size() != count || !finite) refuse_node(node, where, key, rule);
+  return values;
 }
 
 }  // namespace
@@ -78,28 +99,14 @@ std::string read_choice(const YAML::Node& node, const std::string& where, const 
 
 std::vector<double> read_numbers(const YAML::Node& node, const std::string& where, const std::string& key,
                                  std::size_t count) {
-  const std::string rule = std::to_string(count) + " finite numbers";
-  std::vector<double> values;
-  if (node.IsDefined() && node.IsSequence()) {
-    for (const YAML::Node& item : node) {
-      double value = 0.0;
-      if (!item.IsScalar() || !YAML::convert<double>::decode(item, value)) refuse_node(node, where, key, rule);
-      values.push_back(value);
-    }
-  } else if (is_scalar(node)) {
-    std::istringstream in(node.Scalar());
-    for (double value = 0.0; in >> value;) values.push_back(value);
-    if (!in.eof()) refuse_node(node, where, key, rule);
-  }
-  const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-  if (values.size() != count || !finite) refuse_node(node, where, key, rule);
-  return values;
+  return read_numbers(node, where, key, count, std::to_string(count) + " finite numbers");
 }
 
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key) {
-  const std::vector<double> v = read_numbers(node, where, key, 7);
+  const std::string rule = "x y z qx qy qz qw (7 finite numbers, the quaternion nonzero)";
+  const std::vector<double> v = read_numbers(node, where, key, 7, rule);
   const Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(q.norm() > 1e-6)) refuse_node(node, where, key, "x y z qx qy qz qw with a nonzero quaternion");
+  if (!(q.norm() > 1e-6)) refuse_node(node, where, key, rule);
   return make_transform(Vector3d(v[0], v[1], v[2]), q);
 }
 
@@ -146,11 +153,10 @@ void check_extent(const YAML::Node& node, const std::string& path, int depth, lo
 
 YAML::Node load_yaml_file(const std::string& path) {
   std::ifstream file(path);
+  if (!file) validation::refuse("", path, std::string("a readable YAML file (") + std::strerror(errno) + ")");
   std::ostringstream text;
   if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // copying an empty file would fail
-  if (!file.is_open() || file.bad() || text.fail()) {
-    validation::refuse("", path, "a readable YAML file");
-  }
+  if (file.bad() || text.fail()) validation::refuse("", path, "a readable YAML file");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
     if (documents.size() > 1)

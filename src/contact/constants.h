@@ -9,8 +9,8 @@ namespace spring_workbench::contact {
 /// [m]; a contact that is not deeper counts as free, and a point that moves further along the normal of a contact has
 /// rolled off it. Larger: bodies sink in. Test: StopContact.FlushAndShiftedItBendsTheForkInSShape at 1e-7, 1e-5.
 constexpr double touching = 1e-6;
-/// [m] of clearance that a body gets between two others that leave it no room. Test:
-/// StopContact.FlushAndShiftedItBendsTheForkInSShape at 5e-8, 5e-6.
+/// [m] of clearance that a body gets between two others that leave it no room; less if its loads move it by little.
+/// Test: StopContact.FlushAndShiftedItBendsTheForkInSShape at 5e-8, 5e-6.
 constexpr double slack = 0.5 * touching;
 /// [m] by which the body is displaced to find what it touches. Test: AlmostFlush.LandsWithAllCornersAtOnce at 1e-6.
 constexpr double probe_depth = 1e-4;

@@ -19,7 +19,7 @@ void ContactStepper::collide(bodies::SteppedBody& body, std::vector<ContactRow>&
   std::vector<bool> hits;
   bool approach = false;
   for (ContactRow& row : contacts) {
-    row.lever_W = row.point.p_W - s.X.translation();
+    row.lever_W = own_point(row) - s.X.translation();
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.lever_W);
     const double speed = -v.dot(row.point.n_W), may_approach = std::max(0.0, row.gap) / h;
     hits.push_back(speed > std::max(scene::rest_speed, may_approach));
@@ -40,9 +40,8 @@ void ContactStepper::correct_impulses(bodies::SteppedBody& body, std::vector<Con
   std::vector<ContactRow> impulses = rows;
   for (ContactRow& impulse : impulses) {
     const Vector3d& n = impulse.point.n_W;
-    const Vector3d of_point = impulse.point.p_W - s.X.translation();
-    const bool rolls = std::abs((of_point - impulse.lever_W).dot(n)) > touching;
-    if (!rolls) impulse.lever_W = of_point;
+    const Vector3d at = own_point(impulse) - s.X.translation();
+    if (impulse.round || std::abs((at - impulse.lever_W).dot(n)) <= touching) impulse.lever_W = at;
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
     impulse.load_W *= h;
     impulse.compliance /= h * h;

@@ -18,6 +18,27 @@ double extent(const RigidTransform& X0, const RigidTransform& X1, double radius)
   return (X1.translation() - X0.translation()).norm() + radius * math::turn_between(X0, X1).norm();
 }
 
+double motion_by(const Wrench& load, const Matrix6d& response, double radius) {
+  const Vector6d motion = response * to_vector(load);
+  return motion.head<3>().norm() + radius * motion.tail<3>().norm();
+}
+
+bool leave_room(const std::vector<ContactRow>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [&](const ContactRow& a) {
+    return std::all_of(rows.begin(), rows.end(),
+                       [&](const ContactRow& b) { return a.point.n_W.dot(b.point.n_W) >= 0.0; });
+  });
+}
+
+bool is_round(const scene::Scene& scene, std::size_t body) {
+  if (body == collision::CollisionWorld::bench) return false;
+  const std::vector<geometry::Shape>& shapes = scene.bodies[body].collision;
+  return std::any_of(shapes.begin(), shapes.end(), [](const geometry::Shape& shape) {
+    return std::holds_alternative<geometry::Sphere>(shape.geometry) ||
+           std::holds_alternative<geometry::Cylinder>(shape.geometry);
+  });
+}
+
 bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within) {
   return a.other == b.other && a.n_W.dot(b.n_W) > one_normal && (a.p_W - b.p_W).norm() < within;
 }

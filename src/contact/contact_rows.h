@@ -12,6 +12,17 @@ Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3
 /// Upper bound of the distance that a point within `radius` of the origin moves between two poses [m].
 double extent(const RigidTransform& X0, const RigidTransform& X1, double radius);
 
+/// The point at which the body is touched: of a round one its own, at its radius; `point` is on the other body.
+inline Vector3d own_point(const ContactRow& row) {
+  return row.round ? Vector3d(row.point.p_W + row.gap * row.point.n_W) : row.point.p_W;
+}
+/// Returns whether no contact pushes against another, so that the body has room to move.
+bool leave_room(const std::vector<ContactRow>& rows);
+/// Upper bound of the distance that a point within `radius` of the body's centre moves by a load [m].
+double motion_by(const Wrench& load, const Matrix6d& response, double radius);
+/// Returns whether a body of the scene, or the bench, has a surface that is curved, so that what it touches can roll.
+bool is_round(const scene::Scene& scene, std::size_t body);
+
 bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within = same_point);
 inline bool has_impulse(const ContactRow& row) { return row.impulse_W != Vector3d::Zero(); }
 /// Returns whether a row is compliant and there is a contact with the same other body.

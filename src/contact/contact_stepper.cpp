@@ -37,6 +37,7 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
     row.friction = std::sqrt(material(body).friction * material(point.other).friction);
     row.compliance = scene::contact_compliance(material(body), material(point.other));
     row.gap = -point.depth;
+    row.round = is_round(scene_, body) || is_round(scene_, point.other);
   }
 }
 
@@ -83,42 +84,38 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
   std::vector<ContactRow> work = rows;
   std::vector<Start> starts;
   for (ContactRow& row : work) {
-    row.lever_W = row.point.p_W - X0.translation();
+    row.lever_W = own_point(row) - X0.translation();
     starts.push_back({row.gap, row.lever_W});
   }
   Matrix6d C = body.response(h).displacement;
+  const double radius = radius_[body.index()];
+  double by_load = motion_by(total_load(work), C, radius);
   if (!body.advance(h, total_load(work))) return false;
   for (int solution = 1; solution <= max_solutions; ++solution) {
-    look_at_end(body, X0, work, starts, outcome);
+    look_at_end(body, X0, small_change * by_load, work, starts, outcome);
     std::vector<ContactRow> assumed = work;
     const std::vector<double> depths = indentations(assumed);
+    const double room = body.reverses() && leave_room(work) ? std::min(slack, solved_share * by_load) : slack;
     double worst = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
-      // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out. Compliant
-      // materials push it out with the force of their law.
+      // What is deeper comes out slowly: at once it would be thrown out. Compliant materials push it out by their law.
       const bool complies = work[i].compliance > 0.0;
-      const double left = complies ? slack : std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
-      work[i].gap += left;
+      work[i].gap += complies ? slack : std::max(room, -starts[i].gap * std::exp(-h / recovery_time));
       if (complies) work[i].gap += depths[i];
       worst = std::max(worst, -work[i].gap);
     }
     solve_contacts(problem_, C, touching, work);
     // Done when solving again would not move the body, however the contacts share what they carry.
     const Wrench load = total_load(work), corrects = load - total_load(assumed);
-    const auto moves = [&](const Wrench& by) {
-      const Vector6d motion = C * to_vector(by);
-      return motion.head<3>().norm() + radius_[body.index()] * motion.tail<3>().norm();
-    };
-    const double change = moves(corrects);
-    const double path = extent(X0, body.object().X, radius_[body.index()]);
-    const double by_load = moves(load);
+    const double change = motion_by(corrects, C, radius), path = extent(X0, body.object().X, radius);
+    by_load = motion_by(load, C, radius);
     const double known = std::clamp(small_change * by_load, 1e-3 * touching, 0.1 * touching);
     if (worst < std::clamp(solved_share * path, slack, 3.0 * touching) &&
         change < std::max(known, std::min(solved_share * std::min(path, by_load), 10.0 * touching))) {
       rows = std::move(assumed);
       return true;
     }
-    if (change * change > touching * radius_[body.index()]) {
+    if (change * change > touching * radius) {
       body.restore(start_);
       if (!body.advance(h, load)) return false;
     } else {
@@ -129,7 +126,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
   return false;
 }
 
-void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0,
+void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0, double fine,
                                  std::vector<ContactRow>& work, std::vector<Start>& starts,
                                  ContactOutcome& outcome) const {
   const RigidTransform X1 = body.object().X;
@@ -137,20 +134,23 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
   const Vector3d rotation = X0.linear() * math::turn_between(X0, X1);
   // A point that stays on the surface slips by its path; one of a body that rolls comes or goes, and slips by what the
   // contact, which stays under the body, does.
-  const auto set_slip = [&](ContactRow& row, const Vector3d& path) {
-    const bool rolls = std::abs(path.dot(row.point.n_W)) > touching;
-    const Vector3d slip = rolls ? Vector3d(moved_on + rotation.cross(row.lever_W)) : path;
+  const auto set_slip = [&](ContactRow& row, const Vector3d& path, bool rolls) {
+    const bool comes = rolls || std::abs(path.dot(row.point.n_W)) > touching;
+    const Vector3d slip = comes ? Vector3d(moved_on + rotation.cross(row.lever_W)) : path;
     row.slip_W = slip - row.point.n_W * slip.dot(row.point.n_W);
   };
   std::vector<ContactRow> seen;  // at first what has rolled off: another point touches there, though it is not deep
   for (std::size_t i = 0; i < work.size(); ++i) {
     ContactRow& row = work[i];
-    const Vector3d start = X0.translation() + starts[i].lever_W;
-    const Vector3d path = moved(X0, X1, start) - start;
-    row.gap = starts[i].gap + path.dot(row.point.n_W);
-    row.point.p_W = start + path;
-    set_slip(row, path);
-    if (path.dot(row.point.n_W) > touching) seen.push_back(row);
+    const Vector3d start = X0.translation() + starts[i].lever_W, path = moved(X0, X1, start) - start;
+    const double along = path.dot(row.point.n_W);
+    row.gap = starts[i].gap + along;
+    row.point.p_W = start + path - (row.round ? row.gap : 0.0) * row.point.n_W;
+    // The second order of a turn lifts a corner off; what is round lies on another of its points instead.
+    const double lift = along - (moved_on + rotation.cross(starts[i].lever_W)).dot(row.point.n_W);
+    starts[i].rolls = lift > fine && row.round;
+    set_slip(row, path, starts[i].rolls);
+    if (starts[i].rolls || along > touching) seen.push_back(row);
   }
   for (ContactRow& row : seen) row.impulse_W.setZero();
   refresh(body, seen, probe_depth, outcome);
@@ -166,10 +166,9 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
       at = i;
     }
     const bool known = at < work.size();
-    if (known && work[at].gap <= row.gap + 0.1 * touching) continue;
+    if (known && work[at].gap <= row.gap + (starts[at].rolls ? 0.0 : 0.1 * touching)) continue;
     const ContactRow before = known ? work[at] : ContactRow();
-    const Vector3d start = moved(X1, X0, row.point.p_W);
-    const Vector3d path = row.point.p_W - start;
+    const Vector3d start = moved(X1, X0, own_point(row)), path = own_point(row) - start;
     // One that is open at first is for the sweep to find: what reverses would bounce from a load that holds it.
     // A surface that is indented already holds it by the force of its depth.
     const bool is_open = row.gap - path.dot(row.point.n_W) > closed;
@@ -183,8 +182,8 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     work[at].impulse_W = before.impulse_W;
     // It presses there when it has come: at its own point, which an unloaded substep carries deep into the other.
     work[at].lever_W = row.point.p_W + row.gap * row.point.n_W - X1.translation();
-    set_slip(work[at], path);
-    starts[at] = {row.gap - path.dot(row.point.n_W), start - X0.translation()};
+    set_slip(work[at], path, starts[at].rolls);
+    starts[at] = {row.gap - path.dot(row.point.n_W), start - X0.translation(), starts[at].rolls};
   }
 }
 

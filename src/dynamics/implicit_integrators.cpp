@@ -1,6 +1,5 @@
 #include "implicit_integrators.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +16,8 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
   const rod::StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
   StrainState next = state;
   rod::StrainVector a = body.acceleration(end, next.q, next.q_dot);
-  const LinearisedMotion motion(body, end, body.forcing(handle, t + h + math::Pack{}), next, a);
-  const ImplicitMatrix matrix(motion, h);
+  const LinearisedMotion& motion = last_.emplace(body, end, body.forcing(handle, t + h + math::Pack{}), next, a);
+  const math::ImplicitMatrix matrix = motion.implicit(h);
   double last_change = 0.0, first_change = 0.0;
   bool converged = false;
   for (int i = 0; i < max_newton_steps && !converged; ++i) {
@@ -48,13 +47,19 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
   return {h * error_v - left_q, 0.0, error_v, converged};
 }
 
+void ImplicitEuler::propagate_deviation(const HeldBody&, const motion::FrameMotion&, double, double h,
+                                        const StrainState&, const StrainState&, StrainState& deviation) {
+  deviation.q_dot = last_->implicit(h).solve(last_->M * deviation.q_dot - h * (last_->K * deviation.q));
+  deviation.q += h * deviation.q_dot;
+}
+
 namespace {
 
-/// Steps side by side from the same state at `t`, one or two.
+/// Steps side by side from the same state at `t`, one or two. Returns the motion about that state.
 template <int n, int columns>
-void rodas_steps(const HeldBody& body, const motion::FrameMotion& handle, double t,
-                 const Eigen::Matrix<double, 1, columns>& h, Eigen::Matrix<double, n, columns>& q,
-                 Eigen::Matrix<double, n, columns>& v) {
+LinearisedMotion rodas_steps(const HeldBody& body, const motion::FrameMotion& handle, double t,
+                             const Eigen::Matrix<double, 1, columns>& h, Eigen::Matrix<double, n, columns>& q,
+                             Eigen::Matrix<double, n, columns>& v) {
   using Column = Eigen::Matrix<double, n, 1>;
   using Columns = Eigen::Matrix<double, n, columns>;
   const double dt = time_difference * h[0];
@@ -64,7 +69,8 @@ void rodas_steps(const HeldBody& body, const motion::FrameMotion& handle, double
   for (int i = 0; i < n; ++i) by_time[i] = (-3.0 * a(i, 0) + 4.0 * a(i, 1) - a(i, 2)) / (2.0 * dt);
   const LinearisedMotion motion(body, body.forcing(handle, t), body.forcing(handle, t + math::Pack{}),
                                 {q.col(0), v.col(0)}, a.col(0));
-  const ImplicitMatrix first(motion, math::Rodas::gamma * h[0]), last(motion, math::Rodas::gamma * h[columns - 1]);
+  const math::ImplicitMatrix first = motion.implicit(math::Rodas::gamma * h[0]),
+                             last = motion.implicit(math::Rodas::gamma * h[columns - 1]);
   const auto acceleration = [&](double c, const Columns& q_c, const Columns& v_c) {
     if (c == 0.0) return side_by_side<n, columns>(a);
     const double longer = h[0], shorter = h[columns - 1];
@@ -76,6 +82,7 @@ void rodas_steps(const HeldBody& body, const motion::FrameMotion& handle, double
     return x;
   };
   math::Rodas::steps(motion.M, motion.K, h, acceleration, side_by_side<n, columns>(by_time), solve, q, v);
+  return motion;
 }
 
 }  // namespace
@@ -85,10 +92,10 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
   return math::by_size(body.size(), [&](auto size) -> StepEstimate {
     constexpr int n = decltype(size)::value;
     Eigen::Matrix<double, n, 2> q = side_by_side<n, 2>(state.q), v = side_by_side<n, 2>(state.q_dot);
-    rodas_steps<n, 2>(body, handle, t, {h, 0.5 * h}, q, v);  // the whole, and the first half
+    last_ = rodas_steps<n, 2>(body, handle, t, {h, 0.5 * h}, q, v);  // the whole, and the first half
     Eigen::Matrix<double, n, 1> q_end = q.col(1), v_end = v.col(1);
     if (q_end.allFinite() && v_end.allFinite()) {
-      rodas_steps<n, 1>(body, handle, t + 0.5 * h, Eigen::Matrix<double, 1, 1>(0.5 * h), q_end, v_end);
+      last_ = rodas_steps<n, 1>(body, handle, t + 0.5 * h, Eigen::Matrix<double, 1, 1>(0.5 * h), q_end, v_end);
     }
     state = {q_end, v_end};
     const rod::StrainVector q_whole = q.col(0), v_whole = v.col(0);
@@ -96,22 +103,27 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
   });
 }
 
+/// By the linear motion about the middle of the step.
+void Rosenbrock::propagate_deviation(const HeldBody& body, const motion::FrameMotion&, double, double h,
+                                     const StrainState&, const StrainState&, StrainState& deviation) {
+  math::by_size(body.size(), [&](auto size) {
+    using Column = Eigen::Matrix<double, decltype(size)::value, 1>;
+    Column q = deviation.q, v = deviation.q_dot;
+    for (int half = 0; half < 2; ++half) {
+      math::Rodas::linear_steps(last_->M, last_->D, last_->K, 0.5 * h, Column(Column::Zero()), q, v);
+    }
+    deviation = {q, v};
+  });
+}
+
 /// The deviations under generalised forces of 1, one per column.
 Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleForcing& handle, double h,
                                           const StrainState& state) {
-  const LinearisedMotion motion(body, handle, state.q);
-  const ImplicitMatrix matrix(motion, math::Rodas::gamma * h);
-  const Eigen::LLT<rod::StrainMatrix> M(motion.M);
   return math::by_size(body.size(), [&](auto size) -> Response {
     using Columns = Eigen::Matrix<double, decltype(size)::value, decltype(size)::value>;
-    const Columns K = motion.K, D = motion.D, none = Columns::Zero();
-    Columns q = none, v = none;
-    const auto acceleration = [&](double, const Columns& q_c, const Columns& v_c) {
-      return Columns(M.solve(Columns::Identity() - K * q_c - D * v_c));
-    };
-    const auto solve = [&](const Columns& b) { return Columns(matrix.solve(b)); };
-    const Eigen::Matrix<double, 1, decltype(size)::value> lengths = Columns::Constant(h).row(0);
-    math::Rodas::steps(motion.M, motion.K, lengths, acceleration, none, solve, q, v);
+    Columns q = Columns::Zero(), v = q;
+    const LinearisedMotion motion(body, handle, state.q);
+    math::Rodas::linear_steps(motion.M, motion.D, motion.K, h, Columns(Columns::Identity()), q, v);
     return {q, v};
   });
 }

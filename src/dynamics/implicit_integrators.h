@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/dynamics/linearised_motion.h"
 
 namespace spring_workbench::dynamics {
 
@@ -12,6 +15,11 @@ class ImplicitEuler final : public Integrator {
   Energy energy() const override { return Energy::dissipated; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                           const StrainState& begin, const StrainState& end, StrainState& deviation) override;
+
+ private:
+  std::optional<LinearisedMotion> last_;  ///< of the last step
 };
 
 /// Rosenbrock method of order four, stiffly accurate and L-stable, without loss of order in stiff forced systems:
@@ -24,7 +32,12 @@ class Rosenbrock final : public Integrator {
   Energy energy() const override { return Energy::conserved; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                           const StrainState& begin, const StrainState& end, StrainState& deviation) override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
+
+ private:
+  std::optional<LinearisedMotion> last_;  ///< of the last step
 };
 
 }  // namespace spring_workbench::dynamics

@@ -73,8 +73,8 @@ void Integrator::propagate_deviation(const HeldBody& body, const motion::FrameMo
 Integrator::Response Integrator::response(const HeldBody& body, const HandleForcing& handle, double h,
                                           const StrainState& state) {
   Response r;
-  r.q_dot = h * ImplicitMatrix(LinearisedMotion(body, handle, state.q), h)
-                    .solve(rod::StrainMatrix::Identity(body.size(), body.size()));
+  const rod::StrainMatrix unit = rod::StrainMatrix::Identity(body.size(), body.size());
+  r.q_dot = h * LinearisedMotion(body, handle, state.q).implicit(h).solve(unit);
   r.q = h * r.q_dot;
   return r;
 }

@@ -44,14 +44,4 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
   });
 }
 
-ImplicitMatrix::ImplicitMatrix(const LinearisedMotion& motion, double d) {
-  const rod::StrainMatrix A = motion.M + d * motion.D + d * d * motion.K;
-  scale_ = A.diagonal().cwiseAbs().cwiseMax(motion.M.diagonal()).cwiseSqrt().cwiseInverse();
-  lu_.compute(scale_.asDiagonal() * A * scale_.asDiagonal());
-}
-
-rod::StrainMatrix ImplicitMatrix::solve(const rod::StrainMatrix& b) const {
-  return scale_.asDiagonal() * lu_.solve(rod::StrainMatrix(scale_.asDiagonal() * b));
-}
-
 }  // namespace spring_workbench::dynamics

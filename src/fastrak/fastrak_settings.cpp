@@ -28,7 +28,7 @@ std::vector<int> read_used_stations(const YAML::Node& node, const std::string& w
                             : read_stations(node, where, "stations");
   const std::set<int> different(stations.begin(), stations.end());
   if (stations.empty() || different.size() != stations.size()) {
-    validation::refuse(where, "stations", "a list of different station numbers between 1 and 4");
+    validation::refuse(where, "stations", "a list of distinct station numbers between 1 and 4");
   }
   return stations;
 }
@@ -40,7 +40,8 @@ std::vector<int> read_styluses(const YAML::Node& node, const std::string& where,
   const std::vector<int> styluses = read_stations(node, where, "stylus");
   for (const int station : styluses) {
     if (free.erase(station) == 0)
-      validation::refuse(where, "stylus", std::to_string(station), "one of stations, each at most once");
+      validation::refuse(where, "stylus", std::to_string(station),
+                         "a station that the parameter stations has, given once");
   }
   return styluses;
 }

@@ -56,8 +56,9 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
     return;
   }
   if (entry.index != next_) {
-    throw validation::InputError("journal: message " + std::to_string(next_) +
-                                 " is missing from the recording: the next one is " + std::to_string(entry.index));
+    throw validation::InputError("~accepted, ~changes: message " + std::to_string(next_) +
+                                 " is missing, the next one is " + std::to_string(entry.index) +
+                                 ": was the recorder too slow, or did it start late?");
   }
   ++next_;
   advance_to_entry(entry.committed, at_stop);
@@ -79,7 +80,7 @@ void Replayer::advance_to_entry(double t, const AtStop& at_stop) {
 void Replayer::apply(const AcceptedInput& accepted) {
   simulation::Simulation& simulation = simulation_.front();
   if (accepted.hand >= simulation.hands()) {
-    validation::refuse("journal", "stylus", std::to_string(accepted.hand + 1),
+    validation::refuse("~accepted", "stylus", std::to_string(accepted.hand + 1),
                        "at most " + std::to_string(simulation.hands()) + ", as in the preceding state");
   }
   if (const auto edge = AcceptedInput::edge_of(accepted.kind)) {
@@ -96,7 +97,7 @@ void Replayer::apply(const AcceptedInput& accepted) {
 void Replayer::apply(const Change& change) {
   const std::uint64_t hash = simulation_.front().state_hash();
   if (hash != change.hash_before) {
-    throw validation::InputError("journal: the state before \"" + change.what + "\" at " +
+    throw validation::InputError("~changes: the state before \"" + change.what + "\" at " +
                                  std::to_string(simulation_.front().time()) +
                                  " s differs from the recorded one: hash " + math::to_hex(hash) + ", recorded " +
                                  math::to_hex(change.hash_before));

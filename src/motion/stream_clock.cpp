@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "constants.h"
 
@@ -16,6 +17,22 @@ double seconds(std::int64_t nanoseconds) { return 1e-9 * static_cast<double>(nan
 std::string to_string(StampResult result) {
   static const char* const names[] = {"fits", "stepped", "too old", "held up", "from the future", "stamp not later"};
   return names[static_cast<std::size_t>(result)];
+}
+
+std::string complaint(StampResult result, double age, double max_age) {
+  std::ostringstream text;
+  text << "stamp: ";
+  if (result == StampResult::too_old) {
+    text << age << " s old, more than max_age = " << max_age
+         << " s (does a bag play without --clock and use_sim_time, or do the clocks of two hosts differ?)";
+  } else if (result == StampResult::from_the_future && -age > max_age) {
+    text << -age << " s ahead of now, more than max_age = " << max_age << " s (do the clocks of two hosts differ?)";
+  } else if (result == StampResult::from_the_future) {
+    text << "ahead of the others of its stream by more than " << clock_slip << " s (was the sender's clock set?)";
+  } else {
+    text << "before the newest of its stream by more than " << clock_slip << " s (is it sent out of order?)";
+  }
+  return text.str();
 }
 
 WallMoment WallClock::read(std::int64_t wall, std::int64_t steady) {

@@ -1,6 +1,8 @@
 #include "spring_workbench/motion_files/motion_file.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <locale>
 #include <sstream>
@@ -68,12 +70,14 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
 
 std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
   std::ifstream file(path);
-  if (!file) validation::refuse("", path, "a readable motion file");
+  if (!file) validation::refuse("", path, std::string("a readable motion file (") + std::strerror(errno) + ")");
   std::vector<motion::StylusSample> samples;
   std::size_t fields = 0;
   long double first_stamp = 0.0L;
   std::string text;
+  bool is_bag = false;
   for (long number = 1; std::getline(file, text); ++number) {
+    if (number == 1) is_bag = text.rfind("#ROSBAG", 0) == 0;
     if (number == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // a byte order mark
     const std::vector<std::string> words = words_of(text);
     if (words.empty()) continue;
@@ -96,7 +100,8 @@ std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
     samples.back().t = whole_nanoseconds(line.stamp - first_stamp);
   }
   if (file.bad()) validation::refuse("", path, "a readable motion file");
-  if (samples.empty()) validation::refuse("", path, "lines of t x y z qx qy qz qw [button], got none");
+  const std::string none = is_bag ? "got a bag: give it as --bag" : "got none";
+  if (samples.empty()) validation::refuse("", path, "lines of t x y z qx qy qz qw [button], " + none);
   return samples;
 }
 

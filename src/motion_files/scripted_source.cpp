@@ -1,11 +1,11 @@
 #include "spring_workbench/motion_files/scripted_source.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/motion/minimum_jerk.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::motion_files {
 namespace {
@@ -41,10 +41,10 @@ ScriptedSource::ScriptedSource(const std::string& path) {
                          "a time later than that of the waypoint before");
     }
     if (waypoint.t * rate_ > most_samples) {
-      std::ostringstream rule;
-      rule << "at most " << most_samples / rate_ << " s after the first, which at rate = " << rate_ << " Hz are "
-           << most_samples << " samples";
-      validation::refuse(config::place(list[i], path), name + ".t", list[i]["t"].Scalar(), rule.str());
+      using validation::number_text;
+      validation::refuse(config::place(list[i], path), name + ".t", list[i]["t"].Scalar(),
+                         "at most " + number_text(most_samples / rate_) + " s after the first, which at rate = " +
+                             number_text(rate_) + " Hz are " + number_text(most_samples) + " samples");
     }
     waypoints_.push_back(waypoint);
   }

@@ -84,9 +84,9 @@ void check_fit(const std::vector<Landmark>& landmarks, const Registration& resul
     validation::refuse(kWhere, "residual of " + name, "at most " + millimetres(largest_residual) + ", got " + given);
   }
   if (other && other->first < std::max(3.0 * result.rms, 0.5 * largest_residual)) {
-    validation::refuse(kWhere, "landmarks",
-                       "ones that the touches fit in only one order, got ones that also fit in the order " +
-                           in_order(landmarks, other->second) + ", to " + millimetres(other->first));
+    throw validation::InputError(kWhere + ": landmarks: too symmetric, the touches also fit in the order " +
+                                 in_order(landmarks, other->second) + " (rms " + millimetres(other->first) +
+                                 "): add a landmark that breaks the symmetry");
   }
 }
 
@@ -124,7 +124,9 @@ Registration register_tracker(const std::vector<Landmark>& landmarks, double lar
 
 PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, double largest_rms) {
   if (poses_TS.size() < min_poses)
-    validation::refuse(kWhere, "poses", "at least 10, got " + std::to_string(poses_TS.size()));
+    validation::refuse(
+        kWhere, "poses",
+        "at least 10, got " + std::to_string(poses_TS.size()) + ": hold the button down while you tilt the stylus");
   const Eigen::Index n = static_cast<Eigen::Index>(poses_TS.size());
   Eigen::MatrixXd A(3 * n, 6);
   Eigen::VectorXd b(3 * n);
@@ -141,7 +143,8 @@ PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, doub
   PivotCalibration result{x.head<3>(), x.tail<3>(), std::sqrt((A * x - b).squaredNorm() / static_cast<double>(n))};
   if (!(result.rms <= largest_rms)) {
     validation::refuse(kWhere, "rms of the tip",
-                       "at most " + millimetres(largest_rms) + ", got " + millimetres(result.rms));
+                       "at most " + millimetres(largest_rms) + ", got " + millimetres(result.rms) +
+                           ": keep the tip in one place, or raise --largest-residual");
   }
   return result;
 }

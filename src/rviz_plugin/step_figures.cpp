@@ -39,7 +39,7 @@ void StepFigures::refresh(double now) {
     return;
   }
   const bool bounded = steps_->steps > 0 && steps_->integrations_without_bound == 0;
-  figures_->setText(QString("cycle %1 ms, error %2 m%3, %4 deadlines missed")
+  figures_->setText(QString("cycle %1 ms, error %2 m%3, deadlines missed: %4")
                         .arg(1e3 * steps_->wall_time, 0, 'f', 3)
                         .arg(steps_->position_error, 0, 'g', 2)
                         .arg(bounded ? QString(", of the run at most %1 m").arg(steps_->error_bound, 0, 'g', 2) : "")

@@ -97,6 +97,7 @@ bool is_flat(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& t) {
 fs::path path_of(const std::string& name, const std::string& folder, const std::string& where, const std::string& key) {
   if (starts_with(name, "package://")) return package_file(name, where, key);
   if (starts_with(name, "file://")) return name.substr(std::string("file://").size());
+  if (name.find("://") != name.npos) validation::refuse(where, key, name, "a path, or a file:// or package:// URI");
   return fs::path(folder) / name;
 }
 
@@ -116,8 +117,8 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
   if (name.empty()) validation::refuse(where, key, name, "an existing file");
   check_folder(path, roots, name, where,
                key);  // checked first, so that the message does not reveal which files exist elsewhere
-  if (!fs::is_regular_file(path, error))
-    refuse_missing(where, key, name, "an existing file" + (path == name ? "" : " (looked for " + path + ")"));
+  if (const std::string absolute = fs::absolute(path).lexically_normal(); !fs::is_regular_file(path, error))
+    refuse_missing(where, key, name, "an existing file" + (absolute == name ? "" : " (looked for " + absolute + ")"));
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > max_bytes) {
     validation::refuse(where, key, name, "a file of at most " + std::to_string(max_bytes >> 20) + " MiB");

@@ -56,8 +56,8 @@ void check_name(const std::string& name, const std::string& where, const std::st
   const std::string unnumbered = numbered ? name.substr(0, number - 1) : name;
   if (name != "world" && name != "workbench" && frames.count(unnumbered) == 0) return;
   validation::refuse(where, key, name,
-                     "a name other than world, workbench, and stylus, head, eye_left, eye_right, fork_handle or "
-                     "fork_tip with or without a number, which are frames");
+                     "a name that is not of a frame (world, workbench, or stylus, head, eye_left, eye_right, "
+                     "fork_handle, fork_tip with or without _N)");
 }
 
 /// Assembles a scene from its URDF, the YAML file next to it and the URDFs that this file refers to.
@@ -143,8 +143,8 @@ class SceneLoader {
 
 }  // namespace
 
-Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots) {
-  const std::string path = resolve_file(path_or_uri, "", roots, "", "scene");
+Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots, const std::string& name) {
+  const std::string path = resolve_file(path_or_uri, "", roots, "", name);
   return SceneLoader(path, roots).load();
 }
 

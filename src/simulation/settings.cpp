@@ -270,8 +270,8 @@ void check_together(const S& settings, const std::string& where) {
         "equal ratios of stretch, bend and torsion if the damping law is modal (the law per_dof takes three)");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    validation::refuse(settings.grasp.tip_place, "grasp.tip_in_object",
-                       "start.follow: true as well, so that the object can move to it");
+    throw validation::InputError(validation::prefix(settings.grasp.tip_place, "grasp.tip_in_object") +
+                                 "needs start.follow: true, so that the object can move to it");
   }
 }
 

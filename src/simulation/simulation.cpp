@@ -136,7 +136,8 @@ struct Simulation::Impl {
   }
   Hand& hand(std::size_t index) {
     if (index < hands.size()) return hands[index];
-    validation::refuse("", "hand", std::to_string(index), "an integer from 0 to " + std::to_string(hands.size() - 1));
+    validation::refuse("", "hand", std::to_string(index),
+                       "an integer between 0 and " + std::to_string(hands.size() - 1));
   }
   double in_world(double t) const { return settings.hand_time_scale * t; }
   /// Converts world time to the hand's; exact for the last requested time, so that requesting it again changes nothing.
@@ -554,15 +555,14 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
   const std::string other = objects.inside_of(*objects.find(name), X_WO);
   if (other.empty()) return;
-  validation::refuse("", "pose",
-                     "one at which " + name + " overlaps no other body by more than 0.1 mm; it overlaps " + other);
+  throw validation::InputError("pose: " + name + " would overlap " + other + " by more than 0.1 mm");
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
   const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.name, "", "name")];
   const std::size_t object = *objects.find(edit.name);
   for (const Hand& hand : hands) {
-    if (hand.carried() == object) validation::refuse("", "name", edit.name, "an object that no tool holds or pushes");
+    if (hand.carried() == object) throw validation::InputError(edit.name + " is held or pushed: release it first");
   }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
   check_place(edit.name, X_WO);

@@ -22,6 +22,9 @@ constexpr double most_strain = 1e100;
 /// Safety factor of the length of the next step, with a tolerance. Test:
 /// SteppedWithATolerance.LandsWithinAFactorOfThreeOfItsTolerance at 0.1.
 constexpr double safety = 0.8;
+/// Fraction by which a step may exceed that length if fewer steps then reach the end of the span. Test:
+/// StepControl.AToleranceTakesLittleMoreThanFixedStepsOfTheSameError at 5.
+constexpr double stretch = 0.05;
 /// Largest ratio of successive steps. Test: SteppedWithATolerance.LandsWithinAFactorOfThreeOfItsTolerance at 1.
 constexpr double most_growth = 3.0;
 /// Smallest ratio of successive steps. Test: SteppedWithATolerance.LandsWithinAFactorOfThreeOfItsTolerance at 1.

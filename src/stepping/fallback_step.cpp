@@ -15,7 +15,7 @@ void fallback_step(const dynamics::HeldBody& body, const motion::FrameMotion& ha
   const dynamics::HandleForcing end = body.forcing(handle, t + h);
   const dynamics::StrainState begin = state;
   const dynamics::LinearisedMotion motion(body, end, begin.q);
-  const dynamics::ImplicitMatrix matrix(motion, h);
+  const math::ImplicitMatrix matrix = motion.implicit(h);
   const auto by = [&](const rod::StrainVector& acceleration) -> dynamics::StrainState {
     const rod::StrainVector q_dot =
         begin.q_dot + matrix.solve(h * (motion.M * acceleration) - h * h * (motion.K * begin.q_dot));

@@ -43,7 +43,7 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     return body.loaded() ? kinetic(s) - moving : energy_gained(body, handle, begin, s);
   };
   const dynamics::LinearisedMotion motion(body, handle, begin.q);
-  const dynamics::ImplicitMatrix step(motion, h);
+  const math::ImplicitMatrix step = motion.implicit(h);
   // Not further in than it is already.
   const double target = std::max(inside, used(begin.q));
   rod::StrainVector q = end.q;

@@ -276,7 +276,8 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::S
   int tries = 0;
   while (end - t > 1e-9 * h) {
     const double left = end - t;
-    const double dt = memory.next_h > 0.95 * left ? left : memory.next_h;
+    // Of equal parts the lengths are few: a method may keep what it has computed for one.
+    const double dt = left / std::max(1.0, std::ceil(left / memory.next_h - stretch));
     const bool smallest = dt < 2.0 * shortest;
     Tried tried = try_step(span, t, dt, state);
     dynamics::StrainState error = memory.error;
@@ -303,9 +304,8 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::S
       growth = local > 0.0 ? safety * std::pow(allowed / local, power) : most_growth;
     }
     growth = std::clamp(growth, least_growth, tries > 0 ? 1.0 : most_growth);
-    if (good || smallest) {
-      // A step that the span's end has cut short says nothing against a longer one.
-      memory.next_h = std::max({dt < memory.next_h ? memory.next_h : 0.0, dt * growth, shortest});
+    if (good || smallest) {  // which says nothing against a longer step: the span's end may have cut it short
+      memory.next_h = std::max({memory.next_h, dt * growth, shortest});
       if (tried.solved) weigh(span, t, dt, state, tried);
       tried.solved ? take(span, t, dt, tried, state) : fall_back(span, t, dt, state);
       memory.error = error;

@@ -66,6 +66,10 @@ class Package(unittest.TestCase):
         self.assertGreater(len(found(ROOT)), 20)
         self.assertEqual(missing(ROOT), [])
 
+    def test_is_cited_with_its_version(self):
+        version = ElementTree.parse(ROOT / "package.xml").getroot().findtext("version")
+        self.assertIn(f"\nversion: {version}\n", (ROOT / "CITATION.cff").read_text())
+
     def test_a_gap_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)

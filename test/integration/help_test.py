@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every program and node says what it is for `--help`, and ends, even without a ROS master. Usage: help_test.py
-PROGRAM..."""
+"""Every program and node says what it is for `--help` and `-h`, in lines that a terminal shows, and ends, even without
+a ROS master. Usage: help_test.py PROGRAM..."""
 import os
 import subprocess
 import sys
@@ -20,6 +20,8 @@ class Help(unittest.TestCase):
                 done = subprocess.run([program, "--help"], **how)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertIn(os.path.basename(program), done.stdout)
+                self.assertLessEqual(max(map(len, done.stdout.splitlines())), 120)
+                self.assertEqual(subprocess.run([program, "-h"], **how).stdout, done.stdout)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Point, Pose, Quaternion, WrenchStamped
+from rosgraph_msgs.msg import Log
 from spring_workbench.msg import (
     Contact,
     Contacts,
@@ -80,6 +81,7 @@ class Manipulation(unittest.TestCase):
         cls.contacts = Listener("manipulation/contacts", Contacts)
         cls.steps = Listener("manipulation/steps", StepReport)
         cls.tf = Listener("/tf", TFMessage)
+        cls.log = Listener("/rosout", Log)
         cls.diagnostics = diagnostics_listener()
         cls.hand = Hand(followed_by=(cls.objects, cls.fork, cls.wrench, cls.steps))
         cls.hand.wait_for_node()
@@ -416,9 +418,9 @@ class Manipulation(unittest.TestCase):
             ("edit_object", ("mass", "box", "", Pose(), NAN, 0.0), ("mass", "nan")),
             ("edit_object", ("friction", "box", "", Pose(), 0.0, -1.0), ("friction", "-1")),
             ("edit_object", ("move", "box", "", Pose(), 0.0, 0.0), ("pose",)),
-            ("edit_object", ("move", "box", "", UPRIGHT, 0.0, 0.0), ("an object that no tool holds or pushes",)),
+            ("edit_object", ("move", "box", "", UPRIGHT, 0.0, 0.0), ("box is held or pushed: release it first",)),
             ("edit_object", ("add", "box", BRICK, UPRIGHT, 0.0, 0.0), ("name", "box")),
-            ("edit_object", ("add", "brick", BRICK, UNDER, 0.0, 0.0), ("brick overlaps", "it overlaps the workbench")),
+            ("edit_object", ("add", "brick", BRICK, UNDER, 0.0, 0.0), ("brick would overlap the workbench",)),
             ("edit_object", ("add", "brick", "/etc/hostname", UPRIGHT, 0.0, 0.0), ("urdf", "/etc/hostname")),
             ("save_scene", ("/etc/scene.urdf",), ("path", "/etc/scene.urdf")),
             ("save_scene", ("scene.urdf",), ("path", "scene.urdf")),
@@ -454,6 +456,8 @@ class Manipulation(unittest.TestCase):
             self.hand.send(transform)
         for reason in reasons:
             wait_for(lambda: count(reason) == before[reason] + 1, "one more sample rejected: " + reason)
+        for line in (r"stamp: [\d.]+ s old, more than max_age = 1 s", r"stamp: [\d.]+ s ahead of now, more than max"):
+            wait_for(lambda: any(re.search(line, m.msg) for m in self.log.messages), line)
         self.hand.run(0.3)
         now = self.box().pose.position
         self.assertLess(math.dist((resting.x, resting.y, resting.z), (now.x, now.y, now.z)), 1e-6)

@@ -1,4 +1,4 @@
-"""examples/04_python as a user runs it, and the lines of the README."""
+"""examples/04_python as a user runs it, and the program of the README."""
 import pathlib
 import re
 import subprocess
@@ -28,13 +28,13 @@ class Example(unittest.TestCase):
         self.assertLess(max(errors["exponential"]), 1e-6)
         self.assertAlmostEqual(errors["implicit_euler"][-2] / errors["implicit_euler"][-1], 2.0, delta=0.2)  # order 1
 
-    def test_the_lines_of_the_readme_lift_the_box(self):
+    def test_the_program_of_the_readme_lifts_the_box(self):
         lines = re.search(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(), re.M | re.S).group(1)
         lines += "print(simulation.poses[0, 2, 3])\n"
         command = [sys.executable, "-c", lines]
         said = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
         weight, height = said.splitlines()
-        self.assertEqual(weight, "0.500 kg")
+        self.assertEqual(weight, "0.500 vkg")
         self.assertAlmostEqual(float(height), 0.03 + 0.1 - 0.5 * 9.81 / 2000.0, delta=2e-4)  # weight over stiffness
 
     def test_the_lift_of_the_library_document_prints_what_it_says(self):

@@ -350,7 +350,7 @@ def test_hands_times_and_names_that_do_not_exist_are_refused():
     simulation = holding()
     simulation.advance_to(1.0)
     before = simulation.state_hash
-    hand = "hand: invalid value '5': expected an integer from 0 to 1"
+    hand = "hand: invalid value '5': expected an integer between 0 and 1"
     for call in [
         simulation.tool,
         lambda hand: simulation.push_button(1.0, True, hand),

@@ -28,12 +28,12 @@ CommandOption text_option(const std::string& name, std::string& value);
 CommandOption number_option(const std::string& name, const validation::NumberRule& rule, double& value);
 CommandOption integer_option(const std::string& name, int min, int max, int& value);
 
-/// Reads the options in the order in which they are given. Returns false at `--help`, and ignores the rest. Throws
-/// InputError for an unknown option, a missing value, or an argument that is not an option.
+/// Reads the options in the order in which they are given. Returns false at `--help` or `-h`, and ignores the rest.
+/// Throws InputError for an unknown option, a missing value, or an argument that is not an option.
 bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& options);
 
-/// For the main() of a ROS node, which has no options: if one of the arguments is `--help`, prints what the node is and
-/// where its parameters are described, and returns true.
+/// For the main() of a ROS node, which has no options: if one of the arguments is `--help` or `-h`, prints what the
+/// node is and where its parameters are described, and returns true.
 bool print_node_help(int argc, char** argv, const std::string& name, const std::string& what);
 
 /// Body of main(): calls `run(*options)`, or prints the help text if `parse()` returns nothing. Prints an exception as

@@ -16,6 +16,7 @@ struct ContactRow {
   Vector3d lever_W = Vector3d::Zero();  ///< from the body's centre of mass to the point
   double friction = 0.0;                ///< friction coefficient of the pair
   double compliance = 0.0;  ///< motion along the normal per load due to the pair's materials; 0 if they are rigid
+  bool round = false;       ///< one of the two is curved, so that it can roll
   double gap = 0.0;         ///< along the normal, for the load assumed so far: must not become negative
   Vector3d slip_W = Vector3d::Zero();     ///< across the normal, for the load assumed so far: friction opposes it
   Vector3d load_W = Vector3d::Zero();     ///< force (impulse) on the body; in: assumed, out: solved

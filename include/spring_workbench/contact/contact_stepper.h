@@ -51,11 +51,13 @@ class ContactStepper {
   struct Start {
     double gap = 0.0;                     ///< [m]
     Vector3d lever_W = Vector3d::Zero();  ///< from the object's centre [m]
+    bool rolls = false;                   ///< another point of a round body touches at the end
   };
   /// Computes gaps and slips of the contacts `work` at the end of a substep that began at `X0`. Contacts that have
-  /// begun on the path are added; one that is deeper than the motion of its points predicts, or rolled, is replaced.
-  void look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
-                   std::vector<Start>& starts, ContactOutcome& outcome) const;
+  /// begun on the path are added; one that is deeper than the motion of its points predicts, or rolled, is replaced:
+  /// one of a round body if its point is lifted by more than `fine` [m].
+  void look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0, double fine,
+                   std::vector<ContactRow>& work, std::vector<Start>& starts, ContactOutcome& outcome) const;
   /// Result of a substep.
   struct Substep {
     bool done = false;                ///< the body has made this substep

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/math/implicit_matrix.h"
 
 namespace spring_workbench::dynamics {
 
@@ -18,27 +18,8 @@ struct LinearisedMotion {
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
   /// Size of a change of the rates, all coordinates together: the root of twice its kinetic energy.
   double size(const rod::StrainVector& q_dot) const { return std::sqrt(q_dot.dot(M * q_dot)); }
-};
-
-/// Solves `(M + d D + d² K) x = b`, scaled to unit diagonal, so that light and heavy coordinates can be combined.
-class ImplicitMatrix {
- public:
-  ImplicitMatrix(const LinearisedMotion& motion, double d);
-  rod::StrainMatrix solve(const rod::StrainMatrix& b) const;
-  template <int n>
-  Eigen::Matrix<double, n, 1> solve(const Eigen::Matrix<double, n, 1>& b) const {
-    const Eigen::Map<const Eigen::Matrix<double, n, n>> LU(lu_.matrixLU().data());
-    Eigen::Matrix<double, n, 1> x;
-    for (int i = 0; i < n; ++i) x[lu_.permutationP().indices()[i]] = scale_[i] * b[i];
-    LU.template triangularView<Eigen::UnitLower>().solveInPlace(x);
-    LU.template triangularView<Eigen::Upper>().solveInPlace(x);
-    for (int i = 0; i < n; ++i) x[i] *= scale_[i];
-    return x;
-  }
-
- private:
-  rod::StrainVector scale_;
-  Eigen::PartialPivLU<rod::StrainMatrix> lu_;
+  /// Of a step in which the positions change by `d` [s] times the rates at its end.
+  math::ImplicitMatrix implicit(double d) const { return {M, D, K, d}; }
 };
 
 }  // namespace spring_workbench::dynamics

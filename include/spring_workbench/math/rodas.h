@@ -1,6 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
+
+#include "spring_workbench/math/implicit_matrix.h"
 
 namespace spring_workbench::math {
 
@@ -62,6 +64,21 @@ struct Rodas {
       x(e) = x_i(e) + X[stages - 1](e);
       v(e) = v_i(e) + V[stages - 1](e);
     }
+  }
+
+  /// Steps of the linear motion M ẍ = force − K x − D ẋ, side by side, all of `h` [s].
+  template <typename Square, typename Matrix>
+  static void linear_steps(const Square& M, const Square& D, const Square& K, double h, const Matrix& force, Matrix& x,
+                           Matrix& v) {
+    const ImplicitMatrix implicit(M, D, K, gamma * h);
+    const Eigen::LLT<Square> factor(M);
+    const Eigen::Matrix<double, Matrix::RowsAtCompileTime, Matrix::RowsAtCompileTime> K_n = K, D_n = D;
+    const auto acceleration = [&](double, const Matrix& x_c, const Matrix& v_c) {
+      return Matrix(factor.solve(force - K_n * x_c - D_n * v_c));
+    };
+    const auto solve = [&](const Matrix& b) { return Matrix(implicit.solve(ImplicitMatrix::Matrix(b))); };
+    const auto lengths = Eigen::Matrix<double, 1, Matrix::ColsAtCompileTime>::Constant(h).eval();
+    steps(M, K, lengths, acceleration, Matrix(Matrix::Zero()), solve, x, v);
   }
 };
 

@@ -41,6 +41,9 @@ enum class StampResult {
 /// The result in words, as in /diagnostics.
 std::string to_string(StampResult result);
 
+/// What is wrong with a stamp that is `age` [s] old and was rejected with this result.
+std::string complaint(StampResult result, double age, double max_age);
+
 /// The clock of one stream of stamped messages: tracks the offset between the sender's clock and the local wall clock
 /// (without the steps of the latter). Slow drift is followed. After a step of the sender's clock the offset is
 /// replaced: at once if this host's own clock made the same step; otherwise once at least three messages that span 0.05

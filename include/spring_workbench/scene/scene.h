@@ -83,8 +83,10 @@ std::string find_package_in_ros_package_path(const std::string& package);
 
 /// Reads a scene from a URDF, given by its path or `package://` URI, and the YAML file next to it, if there is one.
 /// After resolving symbolic links, all files must be in one of the folders `roots` or in a ROS package; with no
-/// `roots`, they may be anywhere. Throws InputError with file, field, rule and value for invalid input.
-Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots = {});
+/// `roots`, they may be anywhere. `name` is what messages call the path, such as `command line: --scene`. Throws
+/// InputError with file, field, rule and value for invalid input.
+Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots = {},
+                 const std::string& name = "scene");
 
 /// Index of the body called `name`, or nothing.
 std::optional<std::size_t> find_body(const Scene& scene, const std::string& name);

@@ -45,7 +45,7 @@ std::string path_of(const std::string& record, std::size_t hand) {
 
 /// Runs the trials and writes the requested files.
 void run(const Options& options) {
-  const scene::Scene scene = scene::load_scene(options.scene);
+  const scene::Scene scene = scene::load_scene(options.scene, {}, std::string(config::command_line) + ": --scene");
   if (scene.targets.empty()) validation::refuse(scene.path, "targets", "at least one target");
   for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials, not after
     if (!path.empty()) const config::OutputFile can_be_made(path);

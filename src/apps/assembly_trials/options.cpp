@@ -68,6 +68,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
 std::string csv_header() { return "participant,order,condition,trial,practice," + assembly::score_csv_header(); }
 
 std::string help_text() {
+  std::string columns = csv_header();
+  columns.insert(columns.find("collisions"), "\n              ");
   return R"(A simulated operator assembles a scene with one tool after another, without a person, ROS or a clock.
 The same arguments give bit-identical output.
 
@@ -84,11 +86,11 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
   --rate      samples of the tracked hand per second [Hz]; default 50
   --delay     the operator sees everything this late [s]; default 0.2
   --noise, --angle-noise  of the tracker, per axis and sample: standard deviations [m], [rad]; default 1e-4, 5e-4
-  --scatter   a reach ends off its goal by this share of its length, per axis; default 0.02
+  --scatter   standard deviation of a reach's end point, per axis, as a fraction of the reach's length; default 0.02
   --time-limit  of a trial [s]; default 300
   --out       a line of CSV per trial:
               )" +
-         csv_header() + R"(
+         columns + R"(
               participant is the seed, condition the tool, order its place in the list above; columns as of a study
               with people
   --table     a table of the means of each tool with 95 % confidence intervals, in CSV

@@ -15,6 +15,7 @@
 #include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/scene/scene.h"
+#include "spring_workbench/validation/number_rule.h"
 #include "summary.h"
 
 namespace spring_workbench::replay {
@@ -57,8 +58,10 @@ class ForkRows {
   std::vector<instruments::ReadingAverage> averages_;
 };
 
-scene::Scene load_scene(const std::string& path) {
-  scene::Scene scene = scene::load_scene(path);
+const std::string scene_option = std::string(config::command_line) + ": --scene";
+
+scene::Scene load_scene(const std::string& path, const std::string& name) {
+  scene::Scene scene = scene::load_scene(path, {}, name);
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
   return scene;
 }
@@ -86,19 +89,25 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   ForkRows fork_rows;
   Summary summary;
   bool first = true;
+  const scene::Scene given = load_scene(options.scene, scene_option);  // it replaces the first one
   const auto load = [&](const std::string& scene) {
-    return load_scene(std::exchange(first, false) ? options.scene : scene);  // `--scene` replaces the first one
+    return std::exchange(first, false) ? given : load_scene(scene, "scene");
   };
   live::Replayer replayer(load, options.settings);
   const auto started = std::chrono::steady_clock::now();
   for (const live::Entry& entry : journal) {
-    replayer.play(entry, [&](simulation::Simulation& simulation, const simulation::AdvanceReport& report) {
+    const auto at_stop = [&](simulation::Simulation& simulation, const simulation::AdvanceReport& report) {
       summary.advance.add(report);
       summary.add_state(simulation);
       ++summary.outputs;
       objects.write(object_rows(simulation.time(), simulation));
       fork.write(fork_rows.at(simulation.time(), simulation, {}));
-    });
+    };
+    try {
+      replayer.play(entry, at_stop);
+    } catch (const validation::InputError& error) {
+      throw validation::InputError(options.bag + ": " + error.what());
+    }
     const auto* accepted = std::get_if<hand_input::AcceptedInput>(&entry.what);
     if (accepted != nullptr && accepted->kind == hand_input::AcceptedInput::Kind::pose) ++summary.samples;
   }
@@ -124,11 +133,10 @@ void check_length(const Options& options, const std::map<std::size_t, Motion>& m
                                      [&](const motion::StylusSample& sample) { return sample.t > longest; });
     if (is_long && file.empty()) file = options.motions[hand];
   }
-  std::ostringstream rule, last;
-  last << end;
-  rule << "at most " << longest << " s after the first, which at rate = " << options.rate << " Hz are " << most_outputs
-       << " output times";
-  validation::refuse(file, "time of the last sample", last.str(), rule.str());
+  using validation::number_text;
+  validation::refuse(file, "time of the last sample", number_text(end),
+                     "at most " + number_text(longest) + " s after the first, which at rate = " +
+                         number_text(options.rate) + " Hz are " + number_text(most_outputs) + " output times");
 }
 
 /// Loads the scene, runs the simulation with the recorded hands and writes both files; if it throws, it leaves no
@@ -144,7 +152,7 @@ Summary run(const Options& options) {
   const std::map<std::size_t, Motion> motions = load_motions(options);
   simulation::SimulationSettings settings = options.settings;
   settings.styluses = std::max(settings.styluses, static_cast<int>(motions.rbegin()->first) + 1);
-  simulation::Simulation simulation(load_scene(options.scene), settings);
+  simulation::Simulation simulation(load_scene(options.scene, scene_option), settings);
   config::OutputFile objects(options.out);
   config::OutputFile fork(fork_path(options.out));
   objects.write(object_header());

@@ -82,9 +82,96 @@ void check_not_read(const Options& options, const std::string& settings) {
     for (const std::string& output : {options.out, fork_path(options.out)}) {
       std::error_code there_is_none;
       if (std::filesystem::equivalent(input, output, there_is_none))
-        validation::refuse(command_line, "--out", options.out, "a file that is not read, and neither is its .fork.csv");
+        throw validation::InputError(validation::prefix(command_line, "--out") + output +
+                                     " is an input of this run and would be overwritten");
     }
   }
+}
+
+const char* const usage_text =
+    R"(Runs the simulation on a recorded hand, without ROS master or clock; equal input gives bit-identical CSV.
+
+replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [--hand-only]
+       [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
+
+  --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
+  --motion    a hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints; the
+              time of each starts at its own first sample
+  --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus), placed by
+              /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; further hands
+              from CHILD_2 (stylus_2) and stylus_2/joy, CHILD_3, ..., all that the bag has. If it has ~accepted and
+              ~changes of manipulation, the run since its last start is repeated, with a line for each committed time
+  --hand-only plays only the poses and buttons of such a bag, with the settings given
+  --settings  a YAML file of the keys below
+  --set       one key; may be given several times; takes precedence over --settings
+  --out       writes or replaces RUN.csv and RUN.fork.csv; nothing is written if anything fails
+
+Example, in the root of the repository: the demo's hand, with a stiffer fork
+  replay --scene scenes/mini_world.urdf --motion config/mini_world_demo.yaml --set fork.stiffness.bend=900 --out run.csv
+
+)";
+
+const char* const output_text =
+    R"(Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless
+grasp.object names an object, which the first hand then holds; the buttons are then ignored.
+
+RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
+  t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
+RUN.fork.csv, a line per output time and hand:
+  t,fork,tool,held                          [s], the hand's fork (fork, fork_2, ...), its tool, the object held
+  stretch,bend_x,bend_y,torsion             [m, m, m, rad] deformation of the fork, measured at its tip
+  handle_x,...,handle_qw                    the handle in world
+  proxy_x,...,proxy_qw                      the proxy handle (differs from the handle if the object cannot follow)
+  tip_x,...,tip_qw                          the tip in world
+  tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz          [N, N*m] on the object, at the tip, world axes
+  handle_fx,...,handle_mz                            [N, N*m] on the hand, handle axes
+  elastic_energy,kinetic_energy             [J] of the fork; of the held object
+  stretching_force,bending_force,force_angle         [N, N, rad] of the force on the fork, along and across its axis
+  weight,weight_mean,weight_uncertainty     [vkg] the tool as a scale: now, over the last second, standard deviation
+  torque,torque_mean,torque_uncertainty     [N*m] the tool as a torque wrench
+  material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
+  error_bound                               [m] of the position; inf: none
+
+The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
+samples, samples_rejected (by input.*; reasons in rejected), dropouts (gaps over dropout_after), reacquisitions, losses
+(of the hand), position_error [m] and angle_error [rad] (largest estimate of a step's local error), local_error_bound
+[m] (null: none), error_bound [m] and angle_error_bound [rad] (largest of the run; null: none),
+integrations_without_bound, energy_balance [J] (added by integration beyond hand, gravity, damping and contact),
+stiffest_omega_dt, contacts (pairs, at the output times), collision_queries, substeps (steps discarded and repeated as
+shorter ones), stops (at the end of the fork's range), steps_fallback (integrations by an L-stable rule), steps_blocked
+(no motion admitted), steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by services and
+panels), changes_made_again (repeated, not loaded), changes_mismatched (with another result), state_hash, active,
+skipped.
+Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.
+)";
+
+/// As ASCII, which every terminal shows.
+std::string plain(std::string text) {
+  static const std::pair<std::string, std::string> signs[] = {{"–", "-"}, {"−", "-"}, {"²", "^2"}, {"·", "*"}};
+  for (const auto& [sign, ascii] : signs) {
+    for (std::size_t at; (at = text.find(sign)) != text.npos;) text.replace(at, sign.size(), ascii);
+  }
+  return text;
+}
+
+/// Adds a paragraph in lines of at most 100 columns, all but the first indented.
+void add_lines(const std::string& paragraph, std::ostream& text) {
+  const std::string indent(6, ' ');
+  std::istringstream words(paragraph);
+  std::string line = "  ";
+  for (std::string word; words >> word; line += word + " ") {
+    if (line.size() + word.size() <= 100) continue;
+    text << line.substr(0, line.size() - 1) << "\n";
+    line = indent;
+  }
+  text << line.substr(0, line.size() - 1) << "\n";
+}
+
+void add_key(const std::string& key, const std::string& unit, const std::string& allowed, const std::string& standard,
+             const std::string& meaning, std::ostream& text) {
+  add_lines(key + (unit == "–" ? "" : " [" + plain(unit) + "]") + ": " + plain(meaning), text);
+  text << "    ";
+  add_lines(plain(allowed) + "; default: " + plain(standard), text);
 }
 
 }  // namespace
@@ -137,59 +224,11 @@ void check_beside_journal(const Options& options) {
 
 std::string help_text() {
   std::ostringstream text;
-  text << R"(Runs the simulation on a recorded hand, without ROS master or clock; equal input gives bit-identical CSV.
-
-replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [--hand-only]
-       [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
-
-  --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
-  --motion    a hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints; the
-              time of each starts at its own first sample
-  --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus), placed by
-              /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; further hands
-              from CHILD_2 (stylus_2) and stylus_2/joy, CHILD_3, ..., all that the bag has. If it has ~accepted and
-              ~changes of manipulation, the run since its last start is repeated, with a line for each committed time
-  --hand-only plays only the poses and buttons of such a bag, with the settings given
-  --settings  a YAML file of the keys below
-  --set       one key; may be given several times; takes precedence over --settings
-  --out       writes or replaces RUN.csv and RUN.fork.csv; nothing is written if anything fails
-
-Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless grasp.object
-names an object, which the first hand then holds; the buttons are then ignored.
-
-RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
-  t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
-RUN.fork.csv, a line per output time and hand:
-  t,fork,tool,held                          [s], the hand's fork (fork, fork_2, ...), its tool, the object held
-  stretch,bend_x,bend_y,torsion             [m, m, m, rad] deformation of the fork, measured at its tip
-  handle_x,...,handle_qw                    the handle in world
-  proxy_x,...,proxy_qw                      the proxy handle (differs from the handle if the object cannot follow)
-  tip_x,...,tip_qw                          the tip in world
-  tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz          [N, N*m] on the object, at the tip, world axes
-  handle_fx,...,handle_mz                            [N, N*m] on the hand, handle axes
-  elastic_energy,kinetic_energy             [J] of the fork; of the held object
-  stretching_force,bending_force,force_angle         [N, N, rad] of the force on the fork, along and across its axis
-  weight,weight_mean,weight_uncertainty     [vkg] the tool as a scale: now, over the last second, standard deviation
-  torque,torque_mean,torque_uncertainty     [N*m] the tool as a torque wrench
-  material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
-  error_bound                               [m] of the position; inf: none
-
-The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
-samples, samples_rejected (by input.*; reasons in rejected), dropouts (gaps over dropout_after), reacquisitions, losses
-(of the hand), position_error [m] and angle_error [rad] (largest estimate of a step's local error), local_error_bound
-[m] (null: none), error_bound [m] and angle_error_bound [rad] (largest of the run; null: none),
-integrations_without_bound, energy_balance [J] (added by integration beyond hand, gravity, damping and contact),
-stiffest_omega_dt, contacts (pairs, at the output times), collision_queries, substeps (steps discarded and repeated as
-shorter ones), stops (at the end of the fork's range), steps_fallback (integrations by an L-stable rule), steps_blocked
-(no motion admitted), steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by services),
-changes_made_again (repeated, not loaded), changes_mismatched (with another result), state_hash, active, skipped.
-Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.
-
-Keys (unit; allowed; default): meaning
-  rate (Hz; a number between 0.001 and 1e6; 50): output times per second
-)";
+  text << usage_text << output_text;
+  text << "\nKeys, with [unit], what is allowed and the default:\n";
+  add_key("rate", "Hz", "a number between 0.001 and 1e6", "50", "output times per second", text);
   const auto add = [&](const std::string& key, const auto& d) {
-    text << "  " << key << " (" << d.unit << "; " << d.allowed << "; " << d.default_value << "): " << d.meaning << "\n";
+    add_key(key, d.unit, d.allowed, d.default_value, d.meaning, text);
   };
   for (const simulation::SettingDescription& d : simulation::setting_descriptions()) add(d.key, d);
   for (const hand_input::InputDescription& d : hand_input::input_descriptions()) add("input." + d.key, d);

@@ -92,8 +92,8 @@ void WrenchInput::report(int timeouts, std::vector<diagnostic_msgs::DiagnosticSt
   if (timeouts > std::exchange(reported_timeouts_, timeouts)) {
     status.raise(DiagnosticStatus::WARN, "no external wrench arrived in time, so it was set to zero");
   }
-  if (rejected > std::exchange(reported_rejected_, rejected)) {
-    status.raise(DiagnosticStatus::WARN, "external wrenches rejected");
+  if (const std::size_t before = std::exchange(reported_rejected_, rejected); rejected > before) {
+    status.raise(DiagnosticStatus::WARN, ros_common::increase("external wrenches rejected", before, rejected));
   }
   statuses.push_back(status.status());
 }

@@ -11,6 +11,7 @@
 namespace spring_workbench::manipulation {
 
 using diagnostic_msgs::DiagnosticStatus;
+using ros_common::increase;
 
 std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std::string>& senders,
                              const std::string& stylus_frame) {
@@ -80,11 +81,12 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   }
   if (hand.tracker_moves > last.hand.tracker_moves)
     status.raise(DiagnosticStatus::WARN, "the tracker's frame was moved: the hand is re-acquired");
-  bool more_rejected = false;
+  std::vector<std::string> rejected;
   for (const auto& [reason, count] : input.rejected) {
     status.add("rejected: " + reason, count);
-    const auto before = last.input.rejected.find(reason);
-    more_rejected |= before == last.input.rejected.end() || before->second < count;
+    const auto found = last.input.rejected.find(reason);
+    const std::size_t before = found == last.input.rejected.end() ? 0 : found->second;
+    if (count > before) rejected.push_back(increase(reason, before, count));
   }
   if (!tracker.hint.empty()) status.add("hint", tracker.hint);
   if (hand.stream.samples == 0) {
@@ -99,9 +101,10 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   }
   if (hand.gate.dropouts > last.hand.gate.dropouts) {
     const std::string complaint = complaint_about_gaps(hand.gate, dropout_after_);
-    status.raise(DiagnosticStatus::WARN, complaint.empty() ? "dropouts" : complaint);
+    const std::string counted = increase("dropouts", last.hand.gate.dropouts, hand.gate.dropouts);
+    status.raise(DiagnosticStatus::WARN, complaint.empty() ? counted : complaint);
   }
-  if (more_rejected) status.raise(DiagnosticStatus::WARN, "samples rejected");
+  if (!rejected.empty()) status.raise(DiagnosticStatus::WARN, "samples rejected: " + validation::join(rejected));
   return status.status();
 }
 
@@ -134,11 +137,16 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   }
   if (!loop.checkpoint_error.empty()) status.raise(DiagnosticStatus::WARN, loop.checkpoint_error);
   if (total.steps_rejected > last_loop_.advance.steps_rejected) {
-    status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
+    status.raise(DiagnosticStatus::ERROR,
+                 increase("steps rejected", last_loop_.advance.steps_rejected, total.steps_rejected) +
+                     ": no finite result in range");
   }
-  if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");
+  if (loop.deadlines_missed > last_loop_.deadlines_missed)
+    status.raise(DiagnosticStatus::WARN,
+                 increase("deadlines missed", last_loop_.deadlines_missed, loop.deadlines_missed));
   if (loop.waits > last_loop_.waits) status.raise(DiagnosticStatus::WARN, "the loop waits: publishing takes too long");
-  if (loop.time_skipped > last_loop_.time_skipped) status.raise(DiagnosticStatus::WARN, "time was skipped");
+  if (loop.time_skipped > last_loop_.time_skipped)
+    status.raise(DiagnosticStatus::WARN, increase("time skipped [s]", last_loop_.time_skipped, loop.time_skipped));
   if (loop.cycles_behind > last_loop_.cycles_behind)
     status.raise(DiagnosticStatus::WARN, "behind: the simulation is slower than the motion of the hands");
   return status.status();

@@ -36,7 +36,8 @@ std::vector<std::string> scene_roots(const ManipulationParameters& parameters, l
 ManipulationNode::ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
     : parameters_(
           read_manipulation_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
-      runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.input, ros::Time::isSimTime()),
+      runner_(scene::load_scene(parameters_.scene, {}, private_node.getNamespace() + ": scene"), parameters_.simulation,
+              parameters_.input, ros::Time::isSimTime()),
       inputs_(listen(input_thread_.handle(node))),
       wrenches_(input_thread_.handle(private_node), inputs_.size(), parameters_.world_frame, parameters_.frame_prefix,
                 parameters_.max_age, [this] { alarm_.ring(); }),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "constants.h"
@@ -106,7 +105,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
       [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
       [&](const geometry_msgs::TransformStamped& one, motion::StampResult result, double age) {
         if (result == motion::StampResult::held_up) return rejections_.count(motion::to_string(result));
-        reject_stamp(one, motion::to_string(result), age);
+        reject_stamp(one, result, age);
       });
   if (const double host_set = wall_poses_.take_host_steps(); host_set != 0.0)
     ROS_WARN("this host's clock was set, or the host was suspended: %.3g s are treated as an offset", host_set);
@@ -118,8 +117,9 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
 void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
   if ((poses_.newest - transform.header.stamp).toSec() > SimulatedClock::slip) early_poses_.keep(transform);
+  using motion::StampResult;
   if (std::abs(age) > parameters_.max_age)
-    return reject_stamp(transform, age > 0.0 ? "too old" : "from the future", age);
+    return reject_stamp(transform, age > 0.0 ? StampResult::too_old : StampResult::from_the_future, age);
   if (use(transform, ros_common::nanoseconds_of(transform.header.stamp), age)) {
     advance_stream(transform.header.stamp, poses_, early_poses_);
   }
@@ -146,13 +146,10 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
   return true;
 }
 
-void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason,
+void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, motion::StampResult result,
                                double age) {
   statistics_.newest_offer_age = age;
-  std::ostringstream line;
-  line << place_of(transform) << "stamp: expected one within max_age = " << parameters_.max_age
-       << " s of now and continue its stream (a bag needs --clock and use_sim_time), got an age of " << age << " s";
-  rejections_.add(reason, line.str());
+  rejections_.add(motion::to_string(result), place_of(transform) + motion::complaint(result, age, parameters_.max_age));
 }
 
 void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {

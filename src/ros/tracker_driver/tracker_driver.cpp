@@ -69,7 +69,7 @@ class TrackerDriver {
     joy_publishers_[1] = node.advertise<sensor_msgs::Joy>("stylus/joy", 100);
     std::vector<int> styluses = parameters_.fastrak.styluses;
     if (parameters_.source == "operator") {
-      scene_ = scene::load_scene(parameters_.scene);
+      scene_ = scene::load_scene(parameters_.scene, {}, name_ + ": scene");
       eyes_ = std::make_unique<OperatorEyes>(node, scene_.X_WH_start.size());
       styluses.resize(scene_.X_WH_start.size());
       std::iota(styluses.begin(), styluses.end(), 1);

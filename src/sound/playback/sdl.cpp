@@ -18,7 +18,7 @@ class SdlDevice final : public AudioOutput {
     if (SDL_InitSubSystem(SDL_INIT_AUDIO) == 0) device_ = SDL_OpenAudioDevice(nullptr, 0, &wanted, nullptr, 0);
     if (device_ == 0)
       throw validation::InputError(std::string("contact sound: sound device: cannot be opened (") + SDL_GetError() +
-                                   "); give a file to write instead");
+                                   "); set ~file (sound_file:=PATH) to write a WAV file instead");
     SDL_PauseAudioDevice(device_, 0);
   }
   ~SdlDevice() override {

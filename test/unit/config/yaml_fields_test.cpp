@@ -206,7 +206,7 @@ TEST(LoadYamlFile, ReportsFileAndLineOfInvalidYaml) {
   EXPECT_EQ(load_yaml_file(folder.path("begun.yaml"))["a"].as<int>(), 1);
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("bad.yaml")); }), {"bad.yaml:", "not YAML"}));
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("nothing.yaml")); }),
-                    {"nothing.yaml: expected a readable YAML file"}));
+                    {"nothing.yaml: expected a readable YAML file (No such file or directory)"}));
   EXPECT_NE(message_of([&] { load_yaml_file(folder.path("")); }), "") << "a folder";
 }
 

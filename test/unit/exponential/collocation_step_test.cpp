@@ -242,14 +242,33 @@ TEST(CollocationStep, HasOrderSevenWithAnyLinearPart) {
   }
 }
 
+/// More lengths than are kept, again and again, in no order.
+double length_of(int step) { return 0.05 / (1.0 + step * step % 11 % 7); }
+
+/// Each step takes the operators of its own length.
+TEST(CollocationStep, OfAnyLengthsInTurnAreExact) {
+  const Decomposition part(omega * omega, damping);
+  Steps steps;
+  steps.set(part);
+  Steps::Strain q(1.5), q_dot(0.3);
+  double t = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_TRUE(steps.step({true}, cubic, t, length_of(i), q, q_dot).solved) << i;
+    t += length_of(i);
+  }
+  const Eigen::Vector2d whole = run({true}, part, cubic, t, 1, {1.5, 0.3});
+  EXPECT_LT((Eigen::Vector2d(q[0], q_dot[0]) - whole).norm(), 1e-13);
+}
+
 /// A step from a restored history is bit-identical with that from the history itself.
 TEST(CollocationStep, ContinuesBitIdenticallyFromARestoredHistory) {
   const Pendulum pendulum{false};
   Steps steps, restored;
   steps.set(Decomposition(omega * omega, damping));
   Steps::Strain q(1.0), q_dot(0.0);
-  const double h = 0.05;
-  for (int i = 0; i < 10; ++i) {
+  double t = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double h = length_of(i);
     math::StateArchive saved;
     saved(steps);
     const math::StateArchive::Words words = saved.taken();
@@ -257,8 +276,9 @@ TEST(CollocationStep, ContinuesBitIdenticallyFromARestoredHistory) {
     given(restored);
     EXPECT_TRUE(given.at_end());
     Steps::Strain other_q = q, other_q_dot = q_dot;
-    const Steps::Result result = steps.step(pendulum, smooth, i * h, h, q, q_dot),
-                        other = restored.step(pendulum, smooth, i * h, h, other_q, other_q_dot);
+    const Steps::Result result = steps.step(pendulum, smooth, t, h, q, q_dot),
+                        other = restored.step(pendulum, smooth, t, h, other_q, other_q_dot);
+    t += h;
     EXPECT_EQ(q, other_q) << i;
     EXPECT_EQ(q_dot, other_q_dot) << i;
     EXPECT_EQ(result.error, other.error) << i;

@@ -39,7 +39,7 @@ TEST(ManipulationDiagnostics, TellThatSamplesComeFartherApartThanADropout) {
   styluses[0].hand.stream.samples = styluses[0].hand.gate.accepted = 100;
   styluses[0].hand.gate.newest_dropout = 0.625;
   const std::pair<std::size_t, std::string> cases[] = {
-      {1, "dropouts"},
+      {1, "dropouts: 1 (1 since the start)"},
       {99,
        "samples come 0.625 s apart, more than dropout_after = 0.5 s: each counts as the return of a lost hand, which "
        "does not move; increase dropout_after"}};

@@ -177,5 +177,15 @@ TEST(StreamClock, AStreamBeginsNearNow) {
   for (const std::int64_t error : late.times) EXPECT_EQ(error, 0);
 }
 
+/// Each names the rule that was broken, and no other.
+TEST(StreamClock, SaysWhatIsWrongWithAStamp) {
+  EXPECT_EQ(complaint(StampResult::too_old, 1.7, 1.0).rfind("stamp: 1.7 s old, more than max_age = 1 s (", 0), 0u);
+  EXPECT_EQ(complaint(StampResult::from_the_future, -50.0, 1.0).rfind("stamp: 50 s ahead of now, more than max_age", 0),
+            0u);
+  EXPECT_EQ(complaint(StampResult::from_the_future, -0.9, 1.0).rfind("stamp: ahead of the others of its stream", 0),
+            0u);
+  EXPECT_EQ(complaint(StampResult::not_later, 0.9, 1.0).rfind("stamp: before the newest of its stream by more", 0), 0u);
+}
+
 }  // namespace
 }  // namespace spring_workbench::motion::stream_clock_test

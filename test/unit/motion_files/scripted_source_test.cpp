@@ -87,14 +87,14 @@ TEST(ScriptedSource, BadScriptsNameFileLineFieldAndRule) {
       {"rate: 50\nwaypoints:\n - {t: .nan, pose: [0, 0, 0, 0, 0, 0, 1]}",
        ":3: waypoints[0].t: invalid value '.nan': expected"},
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 0]}", ":3: waypoints[0].pose: "},
-      {"rate: 50\nwaypoints:\n - {t: 0}", ":3: missing required key waypoints[0].pose: 7 finite numbers"},
+      {"rate: 50\nwaypoints:\n - {t: 0}", ":3: missing required key waypoints[0].pose: x y z qx qy qz qw (7 finite"},
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1], button: 3}",
        ":3: waypoints[0].button: invalid value '3': expected true or false"},
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}",
        ":4: waypoints[1].t: invalid value '0': expected a time later than"},
       {"rate: 10000\nwaypoints:\n - {t: 5, pose: [0, 0, 0, 0, 0, 0, 1]}\n - {t: 1e6, pose: [0, 0, 0, 0, 0, 0, 1]}",
        ":4: waypoints[1].t: invalid value '1e6': expected at most 1000 s after the first, which at rate = 10000 Hz are "
-       "1e+07 samples"},
+       "1e7 samples"},
       {"rate: [", ":1: not YAML"},
   };
   const test_support::TemporaryFolder folder;

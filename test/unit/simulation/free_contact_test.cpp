@@ -89,6 +89,29 @@ TEST_P(LetGo, ASphereSlipsAndRollsAsFarInShortStepsAsInLongOnes) {
   }
 }
 
+/// Its distance from where it should be, every 20 ms, falls at least as the step to the power 1.8: nothing is lost or
+/// gained by the step.
+TEST_P(LetGo, ASphereThatSlipsAndRollsConverges) {
+  const double radius = 0.05, mu = 0.4, longest = 2e-3;
+  std::vector<double> errors;
+  for (const double step : {longest, 5e-4, 1e-4}) {
+    Simulation s = let_go(scene_of({ball(radius, Vector3d(0, 0, radius), mu)}, GetParam(), mu), 1.5, 0.74, step);
+    const bodies::BodyState start = s.objects()[0];
+    const double v = start.V_WO_W.linear.x(), grip = 2.0 * v / (7.0 * mu * g);
+    double worst = 0.0;
+    for (int i = 1; i <= 27; ++i) {
+      s.advance_to(0.18 + 0.02 * i);
+      const double slips = std::min(0.02 * i, grip), rolls = 0.02 * i - slips;
+      const double path = v * slips - 0.5 * mu * g * slips * slips + 5.0 / 7.0 * v * rolls;
+      const Vector3d exact = start.X_WO.translation() + path * Vector3d::UnitX();
+      worst = std::max(worst, (s.objects()[0].X_WO.translation() - exact).norm());
+    }
+    errors.push_back(worst);
+    EXPECT_LE(worst, std::max(5e-6 * std::pow(step / longest, 1.8), 1e-12)) << step;
+  }
+  EXPECT_GE(std::log(errors.front() / errors.back()) / std::log(20.0), 1.8) << errors.front() << ' ' << errors.back();
+}
+
 TEST_P(LetGo, ABallBouncesToTheSquareOfItsRestitution) {
   const double radius = 0.05, drop = 0.5, e = 0.7;
   scene::Scene scene = scene_of({ball(radius, Vector3d(0, 0, radius + drop), 0.3, e)}, GetParam(), 0.3);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -108,6 +109,95 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
     EXPECT_TRUE(!step_is_free || largest > tolerance / 3.0)
         << c.held.shape().size() << " coordinates, ζ " << run.zeta << " " << largest;
   }
+}
+
+/// Integrations of a run, those that were not accepted included, and its largest error at the samples.
+struct Work {
+  double integrations = 0.0, error = 0.0;
+};
+
+/// With a tolerance or, if that is 0, with `parts` steps from sample to sample.
+Work work_on(const ReferenceRun& run, const std::string& integrator, double tolerance, int parts) {
+  Case c = run.rod;
+  const StepControl control(test_support::make_integrator(integrator), tolerance);
+  StepControl::Memory memory;
+  StrainState state = c.held.zero_state();
+  Work work;
+  for (std::size_t i = 0; i < run.hand.size(); ++i) {
+    c.hand = run.hand[i];
+    const double t = c.hand.begin(), h = (c.hand.end() - t) / parts;
+    for (int part = 0; part < parts; ++part) {
+      const ControlledStep step = control.advance(c.held, c.hand, t + part * h, h, state, memory);
+      work.integrations += static_cast<double>(step.steps + step.substeps);
+    }
+    work.error = std::max(work.error, distance(c, c.hand.end(), state, run.exact[i]));
+  }
+  return work;
+}
+
+/// For the same error, with all attempts counted, a tolerance takes at most 1.5 times the integrations of fixed steps,
+/// in the mean over tolerances.
+TEST(StepControl, AToleranceTakesLittleMoreThanFixedStepsOfTheSameError) {
+  for (const std::string integrator : {"exponential", "rosenbrock"}) {
+    double sum = 0.0;
+    int compared = 0;
+    for (const ReferenceRun& run : runs()) {
+      std::vector<Work> fixed;
+      for (int parts = 1; parts <= 16; parts *= 2) fixed.push_back(work_on(run, integrator, 0.0, parts));
+      for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8}) {
+        const Work work = work_on(run, integrator, tolerance, 1);
+        for (std::size_t i = 1; i < fixed.size(); ++i) {
+          const Work &longer = fixed[i - 1], &shorter = fixed[i];
+          if (!(longer.error > work.error && work.error >= shorter.error)) continue;
+          const double share = std::log(longer.error / work.error) / std::log(longer.error / shorter.error);
+          sum +=
+              work.integrations / (longer.integrations * std::pow(shorter.integrations / longer.integrations, share));
+          ++compared;
+        }
+      }
+    }
+    ASSERT_GT(compared, 5) << integrator;
+    EXPECT_LT(sum / compared, 1.5) << integrator << ", " << compared << " runs";
+  }
+}
+
+/// Notes the lengths of its steps [ns].
+class NotesLengths final : public Integrator {
+ public:
+  NotesLengths(std::set<long>& lengths, int& steps) : lengths_(lengths), steps_(steps) {}
+  int order() const override { return method_->order(); }
+  bool stiffly_stable() const override { return true; }
+  Energy energy() const override { return method_->energy(); }
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override {
+    lengths_.insert(std::lround(1e9 * h));
+    ++steps_;
+    return method_->step(body, handle, t, h, state);
+  }
+
+ private:
+  std::unique_ptr<Integrator> method_ = make_integrator(IntegratorKind::rosenbrock);
+  std::set<long>& lengths_;
+  int& steps_;
+};
+
+/// What a method computes for one length of its steps it can keep only if these are few.
+TEST(StepControl, TheStepsToAToleranceAreOfFewLengths) {
+  std::set<long> lengths;
+  int steps = 0;
+  for (const ReferenceRun& run : runs()) {
+    Case c = run.rod;
+    const StepControl control(std::make_unique<NotesLengths>(lengths, steps), 1e-8);
+    StepControl::Memory memory;
+    StrainState state = c.held.zero_state();
+    for (const motion::MotionSegment& segment : run.hand) {
+      c.hand = segment;
+      ASSERT_TRUE(
+          control.advance(c.held, c.hand, segment.begin(), segment.end() - segment.begin(), state, memory).accepted);
+    }
+  }
+  EXPECT_GT(steps, 1000);
+  EXPECT_LT(static_cast<double>(lengths.size()), 0.1 * steps);
 }
 
 /// A stiff fork at rest, bent by a load that its springs hold: the acceleration is the small difference of large ones,

@@ -30,6 +30,14 @@ class DiagnosticStatusBuilder {
   diagnostic_msgs::DiagnosticStatus status_;
 };
 
+/// How far a count has risen, for the message of a status: "dropouts: 2 (7 since the start)".
+template <typename Count>
+std::string increase(const std::string& what, Count before, Count now) {
+  std::ostringstream text;
+  text << what << ": " << now - before << " (" << now << " since the start)";
+  return text.str();
+}
+
 /// Adds how evenly a station's samples arrive, as fields of a status.
 void add_stream(const motion::StreamFigures& stream, DiagnosticStatusBuilder& status);
 

@@ -74,7 +74,7 @@ class StylusInput {
   void advance_stream(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early);
   void restart_when_due();
   double seconds(std::int64_t stamp);
-  void reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason, double age);
+  void reject_stamp(const geometry_msgs::TransformStamped& transform, motion::StampResult result, double age);
 
   const ManipulationParameters parameters_;
   const std::string frame_, joy_;

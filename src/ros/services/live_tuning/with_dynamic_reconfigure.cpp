@@ -69,7 +69,7 @@ class Reconfigure final : public LiveTuning {
         runner_.change("live", runner_.locked([&](const auto& present) { return command_for(present, config); }));
       }
     } catch (const validation::InputError& error) {
-      ROS_WARN_STREAM("live: " << error.what());
+      ROS_WARN_STREAM("dynamic_reconfigure: " << error.what());
     }
     runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, config); });
     published_ = config;
