@@ -199,11 +199,12 @@ TEST(Report, ARecordingThatReplayRefusesIsRefusedInOneLineAndLeavesNothing) {
   const std::string out = folder.path("a/b");
   const std::string motion = test_support::checkout("config/mini_world_demo.yaml");
   const std::pair<std::string, std::string> cases[] = {
-      {"--scene /nowhere.urdf --motion /nowhere.tum", "/nowhere.tum: expected a readable motion file"},
+      {"--scene /nowhere.urdf --motion /nowhere.tum",
+       "/nowhere.tum: expected a readable motion file (No such file or directory)"},
       {"--scene /nowhere.urdf --motion '" + motion + "'",
-       "scene: invalid value '/nowhere.urdf': expected an existing file"},
+       "command line: --scene: invalid value '/nowhere.urdf': expected an existing file"},
       {"--scene /nowhere.urdf --motion '" + motion + "' --settings /nowhere.yaml",
-       "/nowhere.yaml: expected a readable YAML file"}};
+       "/nowhere.yaml: expected a readable YAML file (No such file or directory)"}};
   for (const auto& [arguments, message] : cases) {
     const Outcome outcome = report(arguments + " --out '" + out + "'");
     EXPECT_EQ(outcome.code, 2);

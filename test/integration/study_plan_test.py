@@ -108,7 +108,7 @@ class Plans(WithFolder):
 class Results(WithFolder):
     def test_columns_are_those_of_assembly_trials(self):
         text = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True).stdout
-        self.assertIn(" " + ",".join(sp.KEY + sp.SCORE) + "\n", text)
+        self.assertIn(":" + ",".join(sp.KEY + sp.SCORE) + "participant", "".join(text.split()))
 
     def test_records_continue_where_they_ended(self):
         expected = list(sp.steps(sp.load_plan(self.file(PLAN)), 5))

@@ -117,9 +117,9 @@ struct ChangeReport {
 /// - Frames: world W, stylus S, handle H, tip E, object O at its centre of mass. z of S and H points along the fork,
 ///   from the hand to the tip. Poses and velocities are in W unless the name says otherwise.
 /// - Hands are numbered from 0 to hands() − 1 (the nodes number them from 1); another number throws InputError.
-/// - Time: the simulation owns its time and reads no clock: the same calls give bit-identical results, none of them
-/// NaN.
-///   All times are those of the hand's clock. World time runs `settings().hand_time_scale` times as fast; velocities,
+/// - Time: the simulation owns its time and reads no clock: the same calls give bit-identical results, without a NaN.
+///   All times are those of the hand's clock.
+///   World time runs `settings().hand_time_scale` times as fast; velocities,
 ///   rates and `settings().dynamics.step` refer to world time.
 /// - Lifetimes: the scene is copied. References from const members are valid until the next call of a non-const one. A
 ///   simulation can be moved; to copy it, construct one from the same scene and settings, then copy_state_from().

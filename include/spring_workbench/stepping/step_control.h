@@ -57,8 +57,8 @@ struct ControlledStep {
 /// ten-thousandths of the span, is accepted whatever its error.
 ///
 /// With `error_bound`, the error of the run is tracked from the grasp on, and restarted after anything that cannot be
-/// tracked (Integrator::follow). If the method has no interpolant of its own, `exponential` runs alongside it, and the
-/// distance between the two is tracked.
+/// tracked (propagate_run_error()). If the method has no interpolant of its own, `exponential` runs alongside it, and
+/// the distance between the two is tracked.
 class StepControl {
  public:
   /// What is kept from one span to the next. It is part of the state.
