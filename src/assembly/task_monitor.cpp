@@ -119,12 +119,12 @@ void TaskMonitor::add_path_lengths(const simulation::Simulation& simulation) {
 void TaskMonitor::note_contacts(double t, const std::vector<contact::ContactState>& contacts) {
   std::map<std::pair<std::string, std::string>, double> forces;
   for (const contact::ContactState& c : contacts) {
-    if (c.phase == contact::ContactPhase::ended) continue;
     double& force = forces[{c.object, c.other}];
     force += c.force;
     score_.largest_force = std::max(score_.largest_force, force);
     note_force(c.object, force);
     note_force(c.other, force);
+    if (c.phase == contact::ContactPhase::ended) continue;
     const auto held = carried_.find(c.object);
     if (held == carried_.end()) continue;
     const auto touch = held->second.last_touch.find(c.other);

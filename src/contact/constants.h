@@ -94,6 +94,9 @@ constexpr double min_retry = 0.1;
 constexpr double max_retry = 0.7;
 /// [m] from the path of a body within which other bodies are considered. Test: none: see `blocked_substep`.
 constexpr double margin_near = 5e-4;
+/// [s] over which the force of a contact is averaged: of a hit only the impulse is known. Shorter: hits are harder, and
+/// their force depends on the step. Test: TaskMonitor.AHitHasTheSameForceHoweverSamplesFall at 2e-3.
+constexpr double force_window = 0.02;
 /// [s]; time constant with which a body that penetrates another is pushed out. Shorter: it is thrown out. Test: none:
 /// no other was tried.
 constexpr double recovery_time = 5e-3;

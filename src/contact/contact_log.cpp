@@ -1,7 +1,10 @@
 #include "spring_workbench/contact/contact_log.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
+
+#include "constants.h"
 
 namespace spring_workbench::contact {
 namespace {
@@ -26,6 +29,7 @@ ContactRow row_of(const rigid_bodies::WorldContact& contact, double h) {
 void ContactLog::reset(std::size_t objects) {
   touching_.assign(objects, {});
   with_contacts_.clear();
+  recent_.clear();
   before_.clear();
   ended_.clear();
   reported_.clear();
@@ -42,15 +46,15 @@ void ContactLog::note(std::size_t object, const bodies::BodyState& state, const 
     c.n_W = row.point.n_W;
     c.depth = std::max(0.0, -row.gap);
     c.impulse = std::max(0.0, row.impulse_W.dot(row.point.n_W));
-    c.force = c.impulse / h;
     const Vector3d v = state.V_WO_W.linear + state.V_WO_W.angular.cross(row.point.p_W - state.X_WO.translation());
     c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
     now_touching.push_back(c);
   }
+  if (!now_touching.empty()) set_forces(object, h, now_touching);
   // What was touched and is no more, until it has been reported.
   for (ContactState& c : touching_[object]) {
     if (contains_pair(now_touching, c)) continue;
-    c.impulse = c.force = 0.0;
+    c.impulse = 0.0;
     ended_.push_back(c);
   }
   touching_[object] = std::move(now_touching);
@@ -61,12 +65,39 @@ void ContactLog::note(std::size_t object, const bodies::BodyState& state, const 
   }
 }
 
+void ContactLog::begin_step(double h) {
+  for (auto of_object = recent_.begin(); of_object != recent_.end();) {
+    std::vector<PastImpulse>& recent = of_object->second;
+    for (PastImpulse& past : recent) past.age += h;
+    const auto is_over = [](const PastImpulse& past) { return past.age >= force_window; };
+    recent.erase(std::remove_if(recent.begin(), recent.end(), is_over), recent.end());
+    of_object = recent.empty() ? recent_.erase(of_object) : std::next(of_object);
+  }
+}
+
+void ContactLog::set_forces(std::size_t object, double h, std::vector<ContactState>& contacts) {
+  std::map<std::string, std::pair<int, double>> now;  // number of contacts and impulse, by the other body
+  for (const ContactState& c : contacts) {
+    ++now[c.other].first;
+    now[c.other].second += c.impulse;
+  }
+  std::map<std::string, double> force;
+  for (const auto& [other, step] : now) recent_[object].push_back({other, step.second, h, 0.0});
+  for (const PastImpulse& past : recent_[object])
+    force[past.other] += past.impulse * std::min(1.0, (force_window - past.age) / past.h) / force_window;
+  for (ContactState& c : contacts) {
+    const auto [points, impulse] = now[c.other];
+    c.force = force[c.other] * (impulse > 0.0 ? c.impulse / impulse : 1.0 / points);
+  }
+}
+
 void ContactLog::take(std::size_t object, const ContactLog& from, std::size_t its) {
   touching_[object].clear();
   for (const ContactState& c : from.touching_[its]) {
     if (c.other == "workbench" || scene::find_body(scene_, c.other)) touching_[object].push_back(c);
   }
   if (!touching_[object].empty()) with_contacts_.insert(object);
+  if (const auto recent = from.recent_.find(its); recent != from.recent_.end()) recent_[object] = recent->second;
 }
 
 void ContactLog::exchange(math::StateArchive& state) {
@@ -75,7 +106,7 @@ void ContactLog::exchange(math::StateArchive& state) {
   }
   state(with_contacts_);
   for (const std::size_t object : with_contacts_) state(touching_.at(object));
-  state(ended_, reported_);
+  state(recent_, ended_, reported_);
 }
 
 std::vector<ContactState> ContactLog::all() const {

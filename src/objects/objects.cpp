@@ -78,6 +78,7 @@ void Objects::place(std::size_t object, const RigidTransform& X_WO, double now) 
 }
 
 void Objects::step(const std::vector<Carried>& held, double now, double h, StepCounts& counts) {
+  contacts_.begin_step(h);
   if (dynamic_stepper_) return step_among_movable(held, now, h, counts);
   const auto anywhere = [](const RigidTransform&, const RigidTransform&) { return true; };
   for (const Carried& c : held) carry(*c.body, c.object, h, anywhere, counts);

@@ -17,7 +17,7 @@ struct TaskScore {
       0;           ///< number of times that a held object hit something; setting it down on a fixed body does not count
   int drops = 0;   ///< releases after which the object fell by more than 2 cm
   int broken = 0;  ///< objects on which a contact force exceeded the `max_force` of their target
-  double largest_force = 0.0;   ///< largest contact force on an object [N]
+  double largest_force = 0.0;   ///< largest force between an object and another body, as a mean over 20 ms [N]
   double position_error = 0.0;  ///< current mean over the targets [m]
   double angle_error = 0.0;     ///< current mean over the targets that constrain the angle [rad]
   bool complete() const { return targets > 0 && placed == targets; }

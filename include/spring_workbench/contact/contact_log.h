@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "spring_workbench/bodies/body_state.h"
@@ -20,6 +22,8 @@ class ContactLog {
 
   /// Forgets all contacts, and prepares for this number of objects.
   void reset(std::size_t objects);
+  /// Begins a step of `h` [s] of all objects: the impulses before it are that much older.
+  void begin_step(double h);
   /// Contacts of one object after a step of `h` [s]. An object without a step keeps its contacts.
   void note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows, double h);
   /// Copies to `object` the contacts that object `its` has in `from`, another scene's log, with bodies of this scene.
@@ -36,13 +40,22 @@ class ContactLog {
   void exchange(math::StateArchive& state);
 
  private:
+  /// Normal impulse between an object and another body in a step of `h`, which ended `age` before now [N·s, s].
+  struct PastImpulse {
+    std::string other;
+    double impulse = 0.0, h = 0.0, age = 0.0;
+    void exchange(math::StateArchive& state) { state(other, impulse, h, age); }
+  };
+  /// Notes the impulses of a step of `h` of `object`, whose contacts these are, and sets their forces [s].
+  void set_forces(std::size_t object, double h, std::vector<ContactState>& contacts);
   std::vector<ContactState> all() const;
 
   const scene::Scene& scene_;
-  std::vector<std::vector<ContactState>> touching_;  ///< by object: contacts after its last step
-  std::set<std::size_t> with_contacts_;              ///< objects that touch something
-  std::vector<ContactState> before_;                 ///< when the call began
-  std::vector<ContactState> ended_;                  ///< ended in the present call
+  std::vector<std::vector<ContactState>> touching_;         ///< by object: contacts after its last step
+  std::set<std::size_t> with_contacts_;                     ///< objects that touch something
+  std::map<std::size_t, std::vector<PastImpulse>> recent_;  ///< by object: those within the window of the forces
+  std::vector<ContactState> before_;                        ///< when the call began
+  std::vector<ContactState> ended_;                         ///< ended in the present call
   std::vector<ContactState> reported_;
 };
 

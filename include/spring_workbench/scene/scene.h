@@ -51,11 +51,11 @@ inline std::vector<std::string> names_of(ContactMode) { return {"none", "stop", 
 
 /// Target of an object in an assembly: pose of its link frame in world, with tolerances [m, rad].
 struct Target {
-  RigidTransform X_WL = RigidTransform::Identity();  ///< pose of its link frame in world
-  double position_tolerance = 0.01;                  ///< [m]
-  double angle_tolerance = 0.1;                      ///< [rad]
-  double max_force =
-      std::numeric_limits<double>::infinity();  ///< [N], > 0: the object breaks if a contact force exceeds it
+  RigidTransform X_WL = RigidTransform::Identity();            ///< pose of its link frame in world
+  double position_tolerance = 0.01;                            ///< [m]
+  double angle_tolerance = 0.1;                                ///< [rad]
+  double max_force = std::numeric_limits<double>::infinity();  ///< [N], > 0: the object breaks if another body presses
+                                                               ///< it by more in the mean over 20 ms
   std::vector<Vector3d> p_LG;  ///< grip points of the hands that carry it, in its link frame [m]; empty: one hand, at
                                ///< its centre of mass
 };

@@ -148,6 +148,38 @@ TEST(TaskMonitor, RunningAgainstTheWallIsOneCollision) {
   EXPECT_TRUE(std::isfinite(assembly.score().largest_force));
 }
 
+/// The box is let go and falls to the bench. The force of the hit is that of its impulse over 20 ms, and for as long
+/// the weight, wherever samples fall, some of them microseconds after another, and however long the steps are.
+TEST(TaskMonitor, AHitHasTheSameForceHoweverSamplesFall) {
+  test_support::Random random(7);
+  const scene::Scene scene = box_scene();
+  for (int i = 0; i < 40; ++i) {
+    const double step = random.number(5e-4, 2e-2), shift = random.number(1e-4, 1.9e-2),
+                 spacing = random.number(1e-6, 1e-4);
+    simulation::SimulationSettings settings = Assembly::settings(tools::Release::dropped);
+    settings.dynamics.step = step;
+    simulation::Simulation simulation(scene, settings);
+    TaskMonitor monitor(scene);
+    simulation.push_button(0.0, true);
+    simulation.push_button(1.0 + shift, false);
+    double height = 0.0;
+    for (double t = 0.0; t < 1.5; t += 0.02) {
+      for (const double sample : {t, t + shift, t + shift + spacing}) {
+        const Vector3d p(0.0, 0.0, 0.25 + 0.2 * std::min(sample, 0.5));
+        simulation.push_stylus({sample, make_transform(p, Quaterniond(0.0, 1.0, 0.0, 0.0))});
+        simulation.advance_to(sample);
+        monitor.observe(simulation);
+        if (simulation.objects()[0].held) height = simulation.objects()[0].X_WO.translation().z() - 0.5 * edge;
+      }
+    }
+    const double impulse = std::sqrt(2.0 * scene.gravity * height);
+    EXPECT_EQ(monitor.score().drops, 1);
+    EXPECT_GT(monitor.score().largest_force, 0.99 * impulse / 0.02) << step << ' ' << shift << ' ' << spacing;
+    EXPECT_LT(monitor.score().largest_force, 1.01 * impulse / 0.02 + scene.gravity)
+        << step << ' ' << shift << ' ' << spacing;
+  }
+}
+
 /// Against the wall and to the target: broken for good if it withstands a little less than the impact.
 TEST(TaskMonitor, WhatIsPressedTooHardIsBrokenForGood) {
   double impact = 0.0;
