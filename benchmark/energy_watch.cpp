@@ -48,6 +48,7 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
   largest_ = std::max(largest_, now.moving);
   const double balance = now.moving + mass_ * kGravity * now.p_WO.z() - work_;
   growth_ = std::max(growth_, balance - lowest_ - std::min(estimated_, max_share * largest_));
+  whole_growth_ = std::max(whole_growth_, balance - lowest_);
   growth_beyond_all_ = std::max(growth_beyond_all_, balance - lowest_ - 2.0 * estimated_);
   if (balance > lowest_) return;
   lowest_ = balance;
@@ -57,6 +58,8 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
 double EnergyWatch::uncertainty() const { return 3.0 * std::sqrt(work_squares_); }
 
 double EnergyWatch::growth() const { return std::max(0.0, growth_ - uncertainty()) / largest_; }
+
+double EnergyWatch::whole_growth() const { return std::max(0.0, whole_growth_ - uncertainty()) / largest_; }
 
 double EnergyWatch::excess() const {
   return std::max(0.0, growth_beyond_all_ - work_per_deflection_ * deflection_ - work_per_passage_) / largest_;

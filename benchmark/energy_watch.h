@@ -35,6 +35,8 @@ class EnergyWatch {
   /// Largest growth of energy minus work over an earlier value, beyond the steps' own error estimates since then (at
   /// most a hundredth of the largest energy) and the uncertainty; relative to the largest energy.
   double growth() const;
+  /// The same without allowing for the steps' estimates.
+  double whole_growth() const;
   /// The same beyond twice all of these estimates, which are off by some percent if a step is longer than a period, and
   /// beyond all that the work may be off by however the body oscillates between the calls; relative to the largest
   /// energy.
@@ -57,7 +59,7 @@ class EnergyWatch {
   double work_ = 0.0, work_squares_ = 0.0, deflection_ = 0.0;
   double lowest_ = std::numeric_limits<double>::infinity();
   double estimated_ = 0.0, all_estimated_ = 0.0;  ///< sums of estimates since the minimum and since the first call [J]
-  double growth_ = 0.0, growth_beyond_all_ = 0.0;
+  double growth_ = 0.0, whole_growth_ = 0.0, growth_beyond_all_ = 0.0;
   double work_per_deflection_ = 0.0;  ///< error of the work, relative to the largest deflection [N]
   double work_per_passage_ = 0.0;     ///< error of the work by what the handle moves between the calls [J]
 };

@@ -127,6 +127,7 @@ void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRo
   row.bounded += outcome.bounded;
   row.energy_kept += outcome.energy_kept();
   row.energy_judged += outcome.energy_judged;
+  row.within_rounding += outcome.energy_within_rounding();
   row.none_refused += outcome.refused == 0;
   row.held += outcome.held();
   row.on_its_own += outcome.held_on_its_own();
@@ -145,6 +146,7 @@ void add(const StabilityRow& row, StabilityRow& sum) {
   sum.finite += row.finite;
   sum.bounded += row.bounded;
   sum.energy_judged += row.energy_judged;
+  sum.within_rounding += row.within_rounding;
   sum.energy_kept += row.energy_kept;
   sum.none_refused += row.none_refused;
   sum.held += row.held;
@@ -290,6 +292,7 @@ void follow(const RodCase& one, const MapHandMotion& hand, double step, CellRun&
     reached = end;
     if (one.mass == 0.0 || run.energy() == Energy::not_applicable || !watch.is_certain()) continue;
     outcome.energy_growth = std::max(outcome.energy_growth, watch.growth());
+    outcome.energy_whole_growth = std::max(outcome.energy_whole_growth, watch.whole_growth());
     if (run.energy() == Energy::conserved)
       outcome.energy_estimated = std::max(outcome.energy_estimated, watch.estimates());
     outcome.energy_judged = end == hand.samples.back().t;
@@ -349,7 +352,7 @@ std::string stability_csv(const StabilityMap& map) {
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_judged,energy_kept,"
          "none_refused,"
          "held,cannot_fail,real_time,three_times,on_its_own,turning,steps,substeps,stops,steps_fallback,fallback_share,"
-         "energy_growth,energy_estimated\n";
+         "energy_growth,energy_estimated,within_rounding\n";
   for (const StabilityRow& row : map.rows) {
     out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step
         << ',' << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ','
@@ -357,7 +360,7 @@ std::string stability_csv(const StabilityMap& map) {
         << row.cannot_fail << ',' << row.real_time << ',' << row.three_times << ',' << row.on_its_own << ','
         << row.turning << ',' << row.steps << ',' << row.substeps << ',' << row.stops << ',' << row.fallback << ','
         << (row.steps > 0.0 ? row.fallback / row.steps : 0.0) << ',' << row.energy_growth << ',' << row.energy_estimated
-        << '\n';
+        << ',' << row.within_rounding << '\n';
   }
   return out.str();
 }
@@ -365,15 +368,16 @@ std::string stability_csv(const StabilityMap& map) {
 std::string failures_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,tail,seconds,finite,bounded,"
-         "energy_judged,energy_growth,energy_estimated,steps_refused,steps,substeps,stops,steps_fallback,"
+         "energy_judged,energy_growth,energy_whole_growth,energy_estimated,steps_refused,steps,substeps,stops,steps_"
+         "fallback,"
          "processor_time\n";
   for (const StabilityRun& f : map.failures) {
     out << f.integrator << ',' << f.shape << ',' << f.cell.stiffness_factor << ',' << f.cell.mass << ',' << f.cell.step
         << ',' << f.cell.damping_ratio << ',' << dofs_name(f.cell.dofs) << ',' << name_of(f.cell.hand) << ','
         << name_of(f.cell.tail) << ',' << f.cell.seconds << ',' << f.outcome.finite << ',' << f.outcome.bounded << ','
-        << f.outcome.energy_judged << ',' << f.outcome.energy_growth << ',' << f.outcome.energy_estimated << ','
-        << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.substeps << ',' << f.outcome.stops << ','
-        << f.outcome.fallback << ',' << f.outcome.processor << '\n';
+        << f.outcome.energy_judged << ',' << f.outcome.energy_growth << ',' << f.outcome.energy_whole_growth << ','
+        << f.outcome.energy_estimated << ',' << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.substeps
+        << ',' << f.outcome.stops << ',' << f.outcome.fallback << ',' << f.outcome.processor << '\n';
   }
   return out.str();
 }

@@ -46,9 +46,10 @@ struct StabilityCell {
 
 /// Result of a run.
 struct StabilityOutcome {
-  bool finite = true;          ///< whether pose and twist of the object were finite
-  bool bounded = true;         ///< whether the object stayed within the bound of free flight (see the .cpp)
-  double energy_growth = 0.0;  ///< largest growth while the hand does not turn (EnergyWatch::growth)
+  bool finite = true;                ///< whether pose and twist of the object were finite
+  bool bounded = true;               ///< whether the object stayed within the bound of free flight (see the .cpp)
+  double energy_growth = 0.0;        ///< largest growth while the hand does not turn (EnergyWatch::growth)
+  double energy_whole_growth = 0.0;  ///< EnergyWatch::whole_growth()
   double energy_estimated =
       0.0;  ///< estimated energy errors of the steps in these times, for integrators that conserve energy
   bool energy_judged =
@@ -57,6 +58,7 @@ struct StabilityOutcome {
   int steps = 0, stops = 0, fallback = 0;  ///< steps of the integrator; that reached a stop; taken by the L-stable rule
   int substeps = 0;                        ///< steps discarded and repeated as shorter ones
   double processor = 0.0;                  ///< ratio of processor time to simulated time
+  bool energy_within_rounding() const { return energy_judged && energy_whole_growth <= 1e-9; }
   bool energy_kept() const { return energy_growth <= 1e-9 && energy_estimated <= EnergyWatch::max_share; }
   bool held() const { return finite && bounded && energy_kept() && refused == 0; }
   /// Whether it held in steps of the length set, without the L-stable rule and without the end of the rod's range: by
@@ -82,13 +84,15 @@ struct StabilityRow {
   int turning = 0;  ///< cells whose hand turns to the end: neither the object's reach nor its energy is judged
   double steps = 0.0, stops = 0.0, fallback = 0.0, substeps = 0.0;
   double energy_growth = 0.0, energy_estimated = 0.0;  ///< the largest of the outcomes
+  int within_rounding = 0;  ///< cells of energy_judged whose energy grows by less than 1e-9, estimates not allowed for
 };
 
 template <typename Fields>
 void each_field(StabilityRow& r, Fields& fields) {
   fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded,
          r.energy_judged, r.energy_kept, r.none_refused, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps,
-         r.stops, r.fallback, r.on_its_own, r.turning, r.substeps, r.energy_growth, r.energy_estimated);
+         r.stops, r.fallback, r.on_its_own, r.turning, r.substeps, r.energy_growth, r.energy_estimated,
+         r.within_rounding);
 }
 
 /// The sum of the rows of one integrator, or of one and its shape.
@@ -105,8 +109,8 @@ void each_field(StabilityRun& f, Fields& fields) {
   StabilityCell& c = f.cell;
   StabilityOutcome& o = f.outcome;
   fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.dofs.stretch, c.dofs.bend,
-         c.dofs.torsion, c.hand, c.tail, c.seconds, o.finite, o.bounded, o.energy_growth, o.energy_estimated,
-         o.energy_judged, o.refused, o.steps, o.stops, o.fallback, o.substeps, o.processor);
+         c.dofs.torsion, c.hand, c.tail, c.seconds, o.finite, o.bounded, o.energy_growth, o.energy_whole_growth,
+         o.energy_estimated, o.energy_judged, o.refused, o.steps, o.stops, o.fallback, o.substeps, o.processor);
 }
 
 struct StabilityMap {

@@ -316,7 +316,12 @@ void tolerance_beside_steps(const Measurements& m, const std::string& method, st
   double dearest = 0.0;
   std::string where;
   for (const ErrorRow& row : m.rods) {
-    if (row.tolerance <= 0.0 || row.method != method || !row.finite) continue;
+    if (row.tolerance <= 0.0 || row.method != method) continue;
+    ++count;
+    if (!row.finite) {
+      ++compared;  // it took too long
+      continue;
+    }
     const auto beside = [&](const ErrorRow& other) {
       return other.scene == row.scene && other.shape == row.shape && other.method == method && other.step > 0.0;
     };
@@ -325,7 +330,6 @@ void tolerance_beside_steps(const Measurements& m, const std::string& method, st
       if (beside(other) && other.finite) longest = std::min(longest, other.steps_per_second);
     }
     const bool longer_are_open = row.steps_per_second > longest;
-    ++count;
     kept += row.error_over_tolerance <= 3.0 && (row.error_over_tolerance >= 0.01 || !longer_are_open);
     const std::optional<double> fixed = run_time_for_error(curve(m.rods, beside, &ErrorRow::error), row.error);
     if (!fixed || row.error <= 0.0) continue;
@@ -406,7 +410,8 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
         std::to_string(sum.held) + of_cells + " hold, " + std::to_string(sum.on_its_own) +
         " of them on their own, without shorter steps, a stop or the fallback; energy was judged to the end in " +
         std::to_string(sum.energy_judged) + ", where it grew by at most " + text(sum.energy_growth) +
-        " beyond the estimates, which came to at most " + text(sum.energy_estimated) + "; of " + text(sum.steps) +
+        " beyond the estimates, which came to at most " + text(sum.energy_estimated) + ", and in " +
+        std::to_string(sum.within_rounding) + " by at most 1e-9 without allowing for them" + "; of " + text(sum.steps) +
         " steps " + text(sum.fallback) + " by the fallback, " + text(sum.stops) + " at a stop, " + text(sum.substeps) +
         " repeated as shorter ones";
     const std::string claim = "Stability map, " + name;
@@ -455,8 +460,8 @@ void shapes(const Measurements& m, std::vector<Verdict>& out) {
   constexpr double target = 1.2e-3;  // the table of the model, with its rounding
   for (const ElasticaRow& row : m.elastica) {
     if (row.shape != "linear" || row.alpha != 2.0) continue;
-    out.push_back(judged("Shape linear against the exact elastica at P L²/EI = 2", "tip within " + text(target) + " L",
-                         text(row.tip_error) + " L", row.tip_error <= target));
+    out.push_back(judged("Part: shape linear against the exact elastica at P L²/EI = 2",
+                         "tip within " + text(target) + " L", text(row.tip_error) + " L", row.tip_error <= target));
   }
 }
 
@@ -559,7 +564,7 @@ void contact(const Measurements& m, std::vector<Verdict>& out) {
     }
     if (m.contact.impacts.empty()) continue;
     const std::string name = levels == 0 ? "time of impact" : std::to_string(levels) + " levels of bisection";
-    out.push_back(judged("Pose of first contact, " + name + ", ways of 40 mm", "within 0.01 mm, no way through",
+    out.push_back(judged("Part: pose of first contact, " + name + ", ways of 40 mm", "within 0.01 mm, no way through",
                          text(1e3 * largest) + " mm, " + std::to_string(through) + " through",
                          largest <= 1e-5 && through == 0));
   }

@@ -18,17 +18,20 @@ constexpr double edge = 0.1, before = 0.005;           // m; the gap at the star
 constexpr double phase = 0.1, rest = 0.2, way = 0.02;  // s, s, m
 constexpr double give_up = 12.0;                       // times real time
 constexpr int per_unit = 10;                           // cells
-constexpr std::array<int, 5> values{12, 13, 4, 4, 4};  // stiffness, ratio, step, damping, scene
+// stiffness, ratio, step, damping, scene, friction, shape, mode
+constexpr std::array<int, 8> values{12, 13, 4, 4, 4, 3, 3, 2};
 constexpr std::array<double, 4> steps{0.05, 0.02, 0.005, 0.001}, dampings{0.0, 0.1, 1.0, 10.0};
+constexpr std::array<double, 3> frictions{0.0, 0.3, 1.0};
+constexpr std::array<scene::ContactMode, 2> modes{scene::ContactMode::dynamic, scene::ContactMode::stop};
 
-using Indices = std::array<int, 5>;
+using Indices = std::array<int, 8>;
 
 /// The pairs of values of a cell, encoded as numbers.
 std::vector<int> pairs_of(const Indices& cell) {
   std::vector<int> pairs;
   for (std::size_t a = 0; a < cell.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      pairs.push_back(static_cast<int>(10000 * (5 * a + b)) + 100 * cell[a] + cell[b]);
+      pairs.push_back(static_cast<int>(10000 * (cell.size() * a + b)) + 100 * cell[a] + cell[b]);
     }
   }
   return pairs;
@@ -38,6 +41,13 @@ double wide(int i) { return std::pow(10.0, i); }
 
 scene::Body cube(const std::string& name, double mass, const Vector3d& p) {
   return box(name, Vector3d::Constant(edge), mass, p);
+}
+
+/// The held object: as wide and high as a cube.
+scene::Body held(const MapCell& cell, const Vector3d& p) {
+  const std::array<geometry::Geometry, 3> shapes{geometry::Box{Vector3d::Constant(edge)}, geometry::Sphere{0.5 * edge},
+                                                 geometry::Cylinder{0.5 * edge, edge}};
+  return uniform("held", shapes.at(static_cast<std::size_t>(cell.shape)), at(p), cell.friction, cell.mass_ratio);
 }
 
 scene::Body wall(double x) { return standing("wall", geometry::Box{{0.02, 1.0, 1.0}}, at({x + 0.01, 0.0, 0.5}), 0.5); }
@@ -62,9 +72,10 @@ ContactTrial map_trial(const MapCell& cell) {
       press = -way * Vector3d::UnitZ();
       shift = 0.25 * way * Vector3d::UnitX();
   }
-  bodies.insert(bodies.begin(), cube("held", cell.mass_ratio, p_held));
+  bodies.insert(bodies.begin(), held(cell, p_held));
+  for (scene::Body& body : bodies) body.material.friction = cell.friction;
   ContactTrial trial;
-  trial.scene = scene_with("map", scene::ContactMode::dynamic, std::move(bodies));
+  trial.scene = scene_with("map", cell.contact, std::move(bodies));
   trial.settings = settings_with(cell.stiffness, 0.01 * cell.stiffness, cell.step, "held");
   trial.settings.fork.damping_ratio = {cell.damping, cell.damping, cell.damping};
   const double length = trial.settings.fork.length;
@@ -83,6 +94,11 @@ int cell_count(bool quick) { return quick ? per_unit : 200; }
 
 const std::vector<std::string>& map_scenes() {
   static const std::vector<std::string> all{"wall", "free neighbour", "squeezed", "on a stack"};
+  return all;
+}
+
+const std::vector<std::string>& map_shapes() {
+  static const std::vector<std::string> all{"box", "sphere", "cylinder"};
   return all;
 }
 
@@ -105,7 +121,8 @@ std::vector<MapCell> map_cells(int count) {
     }
     for (const int pair : pairs_of(best)) met.insert(pair);
     cells.push_back({wide(best[0] - 2), wide(best[1] - 6), steps[static_cast<std::size_t>(best[2])],
-                     dampings[static_cast<std::size_t>(best[3])], best[4]});
+                     dampings[static_cast<std::size_t>(best[3])], best[4], frictions[static_cast<std::size_t>(best[5])],
+                     best[6], modes[static_cast<std::size_t>(best[7])]});
   }
   return cells;
 }
@@ -157,13 +174,16 @@ std::vector<MapRow> contact_map(bool quick, Units& units) {
 
 std::string contact_map_csv(const std::vector<MapRow>& rows) {
   std::ostringstream out;
-  out << "obstacle,stiffness,mass_ratio,step,damping,finite,simulated,depth_mm,moved,steps_blocked,steps_unsolved,"
+  out << "contact,obstacle,shape,friction,stiffness,mass_ratio,step,damping,finite,simulated,depth_mm,moved,steps_"
+         "blocked,steps_unsolved,"
          "steps_refused,times_real_time,held\n";
   for (const MapRow& row : rows) {
-    out << row.obstacle << ',' << row.cell.stiffness << ',' << row.cell.mass_ratio << ',' << row.cell.step << ','
-        << row.cell.damping << ',' << row.finite << ',' << row.simulated << ',' << 1e3 * row.depth << ',' << row.moved
-        << ',' << row.steps_blocked << ',' << row.steps_unsolved << ',' << row.steps_rejected << ',' << row.times_real
-        << ',' << row.holds() << '\n';
+    out << name_of(row.cell.contact) << ',' << row.obstacle << ','
+        << map_shapes().at(static_cast<std::size_t>(row.cell.shape)) << ',' << row.cell.friction << ','
+        << row.cell.stiffness << ',' << row.cell.mass_ratio << ',' << row.cell.step << ',' << row.cell.damping << ','
+        << row.finite << ',' << row.simulated << ',' << 1e3 * row.depth << ',' << row.moved << ',' << row.steps_blocked
+        << ',' << row.steps_unsolved << ',' << row.steps_rejected << ',' << row.times_real << ',' << row.holds()
+        << '\n';
   }
   return out.str();
 }

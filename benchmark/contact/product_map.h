@@ -4,20 +4,26 @@
 #include <vector>
 
 #include "benchmark/units.h"
+#include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::benchmark {
 
-/// A combination of the factors that make contact difficult, in contact mode `dynamic`.
+/// A combination of the factors that make contact difficult.
 struct MapCell {
   double stiffness = 1e3;  ///< of stretch and bend [N/m], 1e-2 … 1e9 by decades; torsion: a hundredth of it [N·m/rad]
   double mass_ratio = 1.0;  ///< mass of the held box relative to its neighbours of 1 kg, 1e-6 … 1e6 by decades
   double step = 0.02;       ///< 1/20, 1/50, 1/200, 1/1000 [s]
   double damping = 1.0;     ///< ratio: 0, 0.1, 1, 10
   int scene = 0;            ///< index in `map_scenes()`
+  double friction = 0.5;    ///< of all bodies: 0, 0.3, 1
+  int shape = 0;            ///< of the held object, index in `map_shapes()`
+  scene::ContactMode contact = scene::ContactMode::dynamic;  ///< dynamic, or stop: no other body moves
 };
-/// Obstacles that the held box is pressed against: a fixed wall, a loose box, a loose box in front of a wall, a stack
-/// of three.
+/// Obstacles that the held object is pressed against: a fixed wall, a loose box, a loose box in front of a wall, a
+/// stack of three.
 const std::vector<std::string>& map_scenes();
+/// Shapes of the held object: a box, a sphere, and a cylinder whose axis is vertical.
+const std::vector<std::string>& map_shapes();
 
 /// The first `count` cells of a seeded sequence, of which the first 200 contain every pair of values.
 std::vector<MapCell> map_cells(int count);
@@ -42,11 +48,12 @@ template <typename Fields>
 void each_field(MapRow& r, Fields& fields) {
   MapCell& c = r.cell;
   fields(r.obstacle, c.stiffness, c.mass_ratio, c.step, c.damping, c.scene, r.finite, r.simulated, r.depth, r.moved,
-         r.steps_blocked, r.steps_unsolved, r.steps_rejected, r.times_real, r.to_the_end);
+         r.steps_blocked, r.steps_unsolved, r.steps_rejected, r.times_real, r.to_the_end, c.friction, c.shape,
+         c.contact);
 }
 
-/// The hand presses the held box by 20 mm, shifts it sideways by 20 mm in the next 0.1 s, and rests for 0.2 s. A run is
-/// given up after four times the processor time with which it would hold.
+/// The hand presses the held object by 20 mm, shifts it sideways by 20 mm in the next 0.1 s, and rests for 0.2 s. A run
+/// is given up after four times the processor time with which it would hold.
 MapRow run(const MapCell& cell);
 
 /// Runs the first 200 cells, or a few of them if `quick`. No rows if the mode was not built.

@@ -550,7 +550,7 @@ def stability(table, picture, extremes=None, contact_map=None):
                 forks,
                 [f"1e{math.log10(r):.0f}" for r in ratios],
             )
-            axes.set_title(f"map, dynamic: {total}", fontsize=10)
+            axes.set_title(f"map: {total}", fontsize=10)
             axes.set_ylabel("mass ratio")
             axes.set_xlabel("stiffness [N/m], power of ten")
         finish(layers[2], contact_panels, len(modes) + bool(contact_map), image, "share that holds")

@@ -26,5 +26,9 @@ constexpr double min_along = 0.5;
 /// Of that cosine; of normals that differ by less the shallowest is taken. Test: Pairs.HowFinelyAFloorIsCutDoesNotShow
 /// at 10.
 constexpr double as_good = 0.1;
+/// [m] depth up to which a box and a cylinder touch by their features; deeper ones by their triangles. Smaller: a
+/// cylinder that starts deep comes out of a prism; larger: an edge that is far behind a face pushes, too. Test:
+/// Pairs.ACylinderIsAsDeepInABoxAsItsLowestPoint at 1e-5.
+constexpr double deepest_of_features = 1e-3;
 
 }  // namespace spring_workbench::collision

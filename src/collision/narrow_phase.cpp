@@ -46,6 +46,13 @@ void swap_bodies(std::size_t first, std::vector<ContactPoint>& contacts) {
   }
 }
 
+bool are_box_and_cylinder(const geometry::Geometry& a, const geometry::Geometry& b) {
+  const auto is_so = [](const geometry::Geometry& box, const geometry::Geometry& cylinder) {
+    return std::holds_alternative<geometry::Box>(box) && std::holds_alternative<geometry::Cylinder>(cylinder);
+  };
+  return is_so(a, b) || is_so(b, a);
+}
+
 }  // namespace
 
 void NarrowPhase::Solid::make_surface_and_triangles() {
@@ -75,6 +82,9 @@ void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X
       return geometry::OutlineBox{X_WS, 0.5 * std::get<geometry::Box>(solid.geometry).size, true};
     };
     append(geometry::box_contacts(box(own, X_WA), box(other, X_WB), -tolerance), contacts);
+  } else if (are_box_and_cylinder(own.geometry, other.geometry) &&
+             append_features(own_index, X_WA, other_index, X_WB, tolerance, contacts)) {
+    return;
   } else if (own.is<geometry::MeshPtr>() && other.is<geometry::Cylinder>()) {
     mesh_and_cylinder(own_index, X_WA, other_index, X_WB, tolerance, contacts);
   } else if (own.is<geometry::Cylinder>() && other.is<geometry::MeshPtr>()) {
@@ -83,6 +93,22 @@ void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X
   } else {
     surfaces(with_triangles(own_index), X_WA, with_triangles(other_index), X_WB, tolerance, contacts);
   }
+}
+
+bool NarrowPhase::append_features(std::size_t own, const RigidTransform& X_WA, std::size_t other,
+                                  const RigidTransform& X_WB, double tolerance, std::vector<ContactPoint>& contacts) {
+  const geometry::Solid &a = features(own), &b = features(other);
+  const bool overlap = geometry::overlap(a, X_WA, b, X_WB);
+  if (!overlap && tolerance >= 0.0) return true;
+  const std::size_t first = contacts.size();
+  append(geometry::solid_contacts(a, X_WA, b, X_WB, std::max(0.0, -tolerance), deepest_of_features), contacts);
+  const auto from = contacts.begin() + static_cast<std::ptrdiff_t>(first);
+  const bool touch = std::any_of(from, contacts.end(), [](const ContactPoint& c) { return c.depth > 0.0; });
+  // Features behind each other's planes may pass beside a corner.
+  const auto is_none = [&](const ContactPoint& c) { return !(c.depth > tolerance) || (c.depth > 0.0 && !overlap); };
+  contacts.erase(std::remove_if(from, contacts.end(), is_none), contacts.end());
+  reduce_manifold(first, contacts);
+  return touch || !overlap;
 }
 
 const geometry::Solid& NarrowPhase::features(std::size_t index) {
@@ -114,6 +140,10 @@ double NarrowPhase::free_distance(std::size_t own, const RigidTransform& X_WA, s
     side_distance = std::max(0.0, tolerance + side.gap());
     if (side.is_between_ends()) return side_distance;
     rounded_off = with_triangles(other).surface->rounded_off;
+  }
+  if (are_box_and_cylinder(solids_[own].geometry, solids_[other].geometry)) {
+    const std::size_t cylinder = solids_[own].is<geometry::Cylinder>() ? own : other;
+    rounded_off = with_triangles(cylinder).surface->rounded_off;
   }
   fcl::DistanceResultd result;
   const Triangles* a = with_triangles(own).triangles.get();

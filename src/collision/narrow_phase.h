@@ -18,8 +18,8 @@ using Triangles = fcl::BVHModel<fcl::OBBRSSd>;
 
 /// Contact of two shapes. FCL says which of their triangles meet, and how far apart they are; its normals and depths
 /// come from GJK/EPA, are one point at most and change sign or face from pose to pose. So two boxes are clipped as in
-/// mode `dynamic`, spheres are done by closed formulas, meshes at the side of a cylinder by their edges, and everything
-/// else, cylinders as prisms, by the triangles that meet.
+/// mode `dynamic`, spheres are done by closed formulas, a box and a cylinder by their features as there, meshes at the
+/// side of a cylinder by their edges, and everything else, cylinders as prisms, by the triangles that meet.
 class NarrowPhase {
  public:
   /// Prepares a shape; returns its index.
@@ -41,7 +41,7 @@ class NarrowPhase {
     std::shared_ptr<const geometry::Surface> surface;  ///< none for a sphere
     std::unique_ptr<Triangles> triangles;
     std::unique_ptr<TriangleTree> tree;               ///< of a mesh next to a cylinder
-    std::unique_ptr<const geometry::Solid> features;  ///< of what meets a sphere
+    std::unique_ptr<const geometry::Solid> features;  ///< of what meets a sphere or, a box and a cylinder, each other
 
     template <typename Kind>
     bool is() const {
@@ -54,6 +54,9 @@ class NarrowPhase {
   // Made when they are first needed: most resting objects never do.
   const Solid& with_triangles(std::size_t index);
   const geometry::Solid& features(std::size_t index);
+  /// Of a box and a cylinder; false if they overlap so deeply that their features do not tell where.
+  bool append_features(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
+                       double tolerance, std::vector<ContactPoint>& contacts);
   void mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM, std::size_t cylinder, const RigidTransform& X_WC,
                          double tolerance, std::vector<ContactPoint>& contacts);
   void surfaces(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,

@@ -29,6 +29,9 @@ constexpr double parallel = 1e-6;
 /// Largest slope between two faces at which all their corners count as contacts. If smaller, a slightly tilted body
 /// lands on one corner; if larger, other faces count, too. Test: Drops.WithoutRestitutionNothingLeavesTheBench at 0.
 constexpr double slope_of_flush = 0.1;
+/// Steps along a rim towards its point nearest to an edge; each divides the distance by about the radius over the gap.
+/// Fewer: contacts of rims are missed. Test: Solids.ACylinderThatOverlapsABoxHasANormalThatSeparatesThem at 1.
+constexpr int max_turns = 30;
 /// Number of sides of the prism that approximates a cylinder in triangle contact. If fewer, it is less round; if more,
 /// contact is slower. Test: Pairs.AFlushCylinderStandsOnThePointsOfItsRim at 0.
 constexpr int cylinder_sides = 48;

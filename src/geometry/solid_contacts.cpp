@@ -127,14 +127,14 @@ void point_and_cylinder(const View& view, const Vector3d& p, const IsLow& is_low
 
 /// Whether a face extends to an end of the cylinder `a`, where all its lowest points are.
 bool is_near_rims(const View& view, const Solid::Face& face) {
-  const double end = 0.5 * view.a.cylinder->length + view.reach;
-  double min = end, max = -end;
+  const double near = 0.5 * view.a.cylinder->length - std::max(view.reach, view.deepest);
+  double min = near, max = -near;
   for (const Vector3d& corner : face.corners) {
     const double z = view.X_BA.linear().col(2).dot(corner - view.X_BA.translation());
     min = std::min(min, z);
     max = std::max(max, z);
   }
-  return max >= end - 2.0 * view.reach || min <= 2.0 * view.reach - end;
+  return max >= near || min <= -near;
 }
 
 void points_and_faces(const View& view) {
@@ -153,7 +153,11 @@ void points_and_faces(const View& view) {
   for (const Solid::Face& face : view.b.faces) {
     if (!view.a.cylinder || !is_near_rims(view, face)) continue;
     for (const Vector3d& p : lowest_points(view.a, view.n_A(face.n))) {
-      point_and_face(view, view.X_BA * p, face, [](const Vector3d&) { return true; });
+      const auto is_low = [&](const Vector3d& n_B) {
+        const Vector3d n = view.n_A(n_B), to_lowest = furthest(view.a, -n) - p;
+        return n.dot(to_lowest) >= -slope_of_flush * to_lowest.norm();
+      };
+      point_and_face(view, view.X_BA * p, face, is_low);
     }
   }
 }
@@ -196,15 +200,65 @@ void edge_and_side(const View& view, const Solid::Edge& edge) {
   if (is_supporting(edge.into_left, edge.into_right, -n_A)) view.add(p - gap * n, n, gap);
 }
 
+/// Contact of an edge with a rim of a cylinder, the circle at `height`: where the edge and the tangent at the rim's
+/// point are nearest to each other, from the point at `angle` on.
+void edge_and_rim(const View& view, const Solid::Edge& edge, double height, double angle) {
+  const double radius = view.b.cylinder->radius;
+  const Vector3d start = view.X_BA * edge.start, along = view.X_BA.linear() * edge.along;
+  Vector3d p = Vector3d::Zero(), out = p, cross = p;
+  double turn = 1.0, s = 0.0, size2 = 0.0;
+  for (int i = 0; i < max_turns && std::abs(turn) > 1e-14; ++i) {
+    out = Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    p = radius * out + height * Vector3d::UnitZ();
+    const Vector3d tangent(-out.y(), out.x(), 0.0), between = p - start;
+    cross = along.cross(tangent);
+    size2 = cross.squaredNorm();
+    if (!(size2 > parallel * parallel * along.squaredNorm())) return;
+    s = between.cross(tangent).dot(cross) / size2;
+    turn = between.cross(along).dot(cross) / size2 / radius;
+    angle += turn;
+  }
+  if (std::abs(turn) > same_place / radius) return;
+  for (const double sign : {1.0, -1.0}) {
+    const Vector3d n = sign / std::sqrt(size2) * cross, n_A = view.n_A(n);
+    const double gap = (start - p).dot(n);
+    if (!(gap < view.reach && gap > -view.deepest)) continue;
+    if (std::max(-s, s - 1.0) * along.norm() > beyond(gap)) continue;
+    if (is_supporting(-out, Vector3d(0.0, 0.0, -std::copysign(1.0, height)), n) &&
+        is_supporting(edge.into_left, edge.into_right, -n_A))
+      view.add(p, n, gap);
+  }
+}
+
+/// The same with both rims: from where the edge goes through the plane of a rim, and where it crosses the side.
+void edge_and_rims(const View& view, const Solid::Edge& edge) {
+  const Vector3d start = view.X_BA * edge.start, along = view.X_BA.linear() * edge.along;
+  if (!grown(view.b.extent, std::max(view.reach, view.deepest)).intersects(Extent(start).extend(start + along))) return;
+  const double radius = view.b.cylinder->radius, size = along.head<2>().squaredNorm();
+  const double middle = size > 0.0 ? -start.head<2>().dot(along.head<2>()) / size : 0.0;
+  const double across = (start + middle * along).head<2>().norm();
+  const double half = size > 0.0 ? std::sqrt(std::max(0.0, radius * radius - across * across) / size) : 0.0;
+  for (const double height : {-0.5 * view.b.cylinder->length, 0.5 * view.b.cylinder->length}) {
+    const double through = along.z() != 0.0 ? (height - start.z()) / along.z() : middle;
+    for (const double s : {through, middle - half, middle + half}) {
+      const Vector3d q = start + std::clamp(s, 0.0, 1.0) * along;
+      edge_and_rim(view, edge, height, std::atan2(q.y(), q.x()));
+    }
+  }
+}
+
 void edges_and_edges(const View& view) {
   for (const auto& [a, b] : edges_near(view, view.b.edge_tree)) {
     edge_and_edge(view, view.a.edges[a], view.b.edges[b]);
   }
 }
 
-void edges_and_side(const View& view) {
+void edges_and_cylinder(const View& view) {
   if (!view.b.cylinder || view.a.cylinder) return;
-  for (const Solid::Edge& edge : view.a.edges) edge_and_side(view, edge);
+  for (const Solid::Edge& edge : view.a.edges) {
+    edge_and_side(view, edge);
+    edge_and_rims(view, edge);
+  }
 }
 
 /// Whether a line from `start` to `start + along` goes through a face.
@@ -231,9 +285,14 @@ std::pair<double, double> inside(const Cylinder& c, const Vector3d& start, const
   return {from, to};
 }
 
-/// Whether an edge of `a`, or the axis of a cylinder, enters `b`. If two solids overlap, a corner of the hull of their
-/// intersection is such a point or a corner of one of the solids.
+/// Whether an edge of `a`, or the axis of a cylinder, enters `b`, or a rim a face of a box. If two solids overlap, a
+/// corner of the hull of their intersection is such a point or a corner of one of the solids.
 bool pierces(const View& view) {
+  const auto lowest_enters = [&view](const Solid::Face& face) {
+    return contains(view.b.geometry, view.X_BA * furthest(view.a, -view.n_A(face.n)));
+  };
+  const bool on_box = view.a.cylinder && std::holds_alternative<Box>(view.b.geometry);
+  if (on_box && std::any_of(view.b.faces.begin(), view.b.faces.end(), lowest_enters)) return true;
   for (const auto& [e, face] : edges_near(view, view.b.face_tree)) {
     const Solid::Edge& edge = view.a.edges[e];
     if (crosses(view.X_BA * edge.start, view.X_BA.linear() * edge.along, view.b.faces[face])) return true;
@@ -253,10 +312,10 @@ bool pierces(const View& view) {
                                         [&](const Solid::Edge& edge) { return enters(edge.start, edge.along); });
 }
 
-/// Whether `a` is contained in `b`: it fits, and one of its points is inside.
+/// Whether a point of `a` is contained in `b`; if neither pierces the other, it is as a whole.
 bool is_contained(const View& view) {
-  if (!view.b.extent.contains(bounding_box(view.a.extent, view.X_BA))) return false;
-  return contains(view.b.geometry, view.X_BA * furthest(view.a, Vector3d::UnitX()));
+  const Vector3d p = view.X_BA * furthest(view.a, Vector3d::UnitX());
+  return view.b.extent.contains(p) && contains(view.b.geometry, p);
 }
 
 void append(const std::vector<BoxContact>& found, const RigidTransform& X, bool swap_bodies,
@@ -371,9 +430,9 @@ std::vector<BoxContact> solid_contacts(const Solid& a, const RigidTransform& X_W
   const View from_b{a, b, X_BA, reach, deepest, of_a}, from_a{b, a, X_AB, reach, deepest, of_b};
   points_and_faces(from_b);
   points_and_faces(from_a);
-  edges_and_edges(from_b);
-  edges_and_side(from_b);
-  edges_and_side(from_a);
+  if (a.cylinder.has_value() == b.cylinder.has_value()) edges_and_edges(from_b);
+  edges_and_cylinder(from_b);
+  edges_and_cylinder(from_a);
   append(of_a, X_WB, false, contacts);
   append(of_b, X_WA, true, contacts);
   return contacts;

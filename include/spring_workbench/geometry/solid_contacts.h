@@ -21,8 +21,8 @@ struct PartTree {
 };
 
 /// The features of a shape that another solid can touch, in the shape's frame: corners, faces, and convex edges
-/// (neither seams within a flat face nor grooves) of a box or a closed mesh. The rims of a cylinder have the edges of a
-/// prism; its side, its ends and the points on its rims are exact, as a sphere is, which has none of these.
+/// (neither seams within a flat face nor grooves) of a box or a closed mesh. A cylinder's side, ends and rims are
+/// exact, as a sphere is, which has none of these; only against another cylinder, its rims have the edges of a prism.
 struct Solid {
   struct Face {
     std::array<Vector3d, 3> corners;

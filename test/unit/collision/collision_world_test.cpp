@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/math/moving_frames.h"
+#include "spring_workbench/math/so3.h"
 #include "support/meshes.h"
 #include "support/random_poses.h"
 
@@ -382,6 +384,32 @@ TEST(Pairs, AFlushCylinderStandsOnThePointsOfItsRim) {
     EXPECT_TRUE(span.contains(Vector3d(Vector3d(0.01, 0.02, 0.05)))) << "holds its centre up";
     EXPECT_GT(span.sizes().x(), 0.07);
     EXPECT_GT(span.sizes().y(), 0.07);
+  }
+}
+
+/// On the middle of a large face, however it is tilted and turned, and as deep as its lowest point is.
+TEST(Pairs, ACylinderIsAsDeepInABoxAsItsLowestPoint) {
+  Random random(12);
+  const geometry::Box base{Vector3d(2.0, 2.0, 0.1)};
+  for (int i = 0; i < 300; ++i) {
+    const geometry::Cylinder cylinder{random.number(0.01, 0.1), random.number(0.01, 0.2)};
+    const RigidTransform X_WB = random.pose(0.3);
+    RigidTransform X_BC = random.pose(0.0);
+    if (i % 3 == 0) X_BC.linear() = Eigen::AngleAxisd(random.number(-3.0, 3.0), Vector3d::UnitX()) * X_BC.linear();
+    if (i % 3 == 1)
+      X_BC.linear() = math::shortest_rotation(Vector3d::UnitZ(), Vector3d(1.0, random.number(-1.0, 1.0), 0.0)) *
+                      math::exp_so3(random.number(-3.0, 3.0) * Vector3d::UnitZ());  // on its side
+    const double depth = std::pow(10.0, random.number(-5.5, -3.05));
+    X_BC.translation().z() = 0.05 - depth - geometry::bounding_box(cylinder, X_BC).min().z();
+    const CollisionWorld world(scene_of({body_of(cylinder), body_of(base, X_WB)}));
+    const auto found = contacts(world, 0, X_WB * X_BC);
+    ASSERT_FALSE(found.empty()) << i;
+    EXPECT_NEAR(deepest(found).depth, depth, 1e-12) << i;
+    for (const ContactPoint& c : found) EXPECT_LT((c.n_W - X_WB.linear().col(2)).norm(), 1e-9) << i;
+    const auto open = contacts(world, 0, at(1.1 * depth * X_WB.linear().col(2)) * X_WB * X_BC, -0.2 * depth);
+    ASSERT_FALSE(open.empty()) << i;
+    EXPECT_NEAR(deepest(open).depth, -0.1 * depth, 1e-12) << i;
+    EXPECT_TRUE(contacts(world, 0, at(1.1 * depth * X_WB.linear().col(2)) * X_WB * X_BC).empty()) << i;
   }
 }
 

@@ -199,5 +199,49 @@ TEST(Solids, ACylinderTouchesWithSideAndRims) {
   EXPECT_NEAR(contacts[0].gap, 1e-6, 1e-12);
 }
 
+/// How far `a` reaches into `b` along a normal: what it has to move to be apart.
+double depth_along(const Solid& a, const RigidTransform& X_WA, const Solid& b, const RigidTransform& X_WB,
+                   const Vector3d& n_W) {
+  const Vector3d lowest = X_WA * furthest(a, X_WA.linear().transpose() * -n_W);
+  const Vector3d highest = X_WB * furthest(b, X_WB.linear().transpose() * n_W);
+  return n_W.dot(highest - lowest);
+}
+
+/// A box and a cylinder, brought together from a random side until they touch, and a little further; tilted, flush, and
+/// with equal sizes, so that rims meet edges. One of the contacts' normals separates them over no longer a way than
+/// they have come, and no contact is deeper than they are along its normal.
+TEST(Solids, ACylinderThatOverlapsABoxHasANormalThatSeparatesThem) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto direction = [&] { return Vector3d(unit(random), unit(random), unit(random)).normalized(); };
+  for (int i = 0; i < 3000; ++i) {
+    const Solid cylinder{i % 3 == 0 ? Cylinder{0.05, 0.1}
+                                    : Cylinder{0.03 + 0.02 * unit(random), 0.06 + 0.05 * unit(random)}};
+    const double tilt = i % 2 == 0 ? 3.0 : std::pow(10.0, -5.0 + 3.0 * unit(random));
+    const RigidTransform X_WB = make_transform(Vector3d::Zero(), Quaterniond::UnitRandom());
+    RigidTransform X_BC = RigidTransform::Identity();
+    X_BC.linear() = math::exp_so3(tilt * direction());
+    const Vector3d from = direction();
+    double near = 0.0, far = 0.3;  // overlapping, apart
+    const auto placed = [&](double way) {
+      RigidTransform X = X_BC;
+      X.translation() = way * from;
+      return RigidTransform(X_WB * X);
+    };
+    const auto are_apart = [&](double way) { return !overlap(cylinder, placed(way), cube, X_WB); };
+    for (int k = 0; k < 60; ++k) (are_apart(0.5 * (near + far)) ? far : near) = 0.5 * (near + far);
+    const double depth = std::pow(10.0, -5.0 + unit(random));
+    const RigidTransform X_WC = placed(far - depth);
+    const auto contacts = solid_contacts(cylinder, X_WC, cube, X_WB, 0.0, 1e-3);
+    double least = 1.0;
+    for (const BoxContact& c : contacts) {
+      const double along = depth_along(cylinder, X_WC, cube, X_WB, c.n_W);
+      least = std::min(least, along);
+      EXPECT_LE(-c.gap, along + 1e-9) << i;
+    }
+    EXPECT_LE(least, depth + 1e-7) << i << ' ' << contacts.size();
+  }
+}
+
 }  // namespace
 }  // namespace spring_workbench::geometry::solid_contacts_test
