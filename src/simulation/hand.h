@@ -47,8 +47,7 @@ class Hand {
   std::optional<std::size_t> carried() const {
     return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
   }
-  /// Returns the object that this tool alone holds, ready for a step of `h` [s] under a load
-  /// (tools::ToolHold::set_load); null if it is at rest and needs no step.
+  /// Returns the object that this tool alone holds, ready for a step of `h` [s] under a load; null if it is at rest.
   bodies::SteppedBody* begin_step(double now, double h, const Wrench& load_W);
   /// Prepares a step of `h` [s] of a tool that shares its object with other tools or pushes it.
   tools::ToolOnObject begin_shared_step(double now, double h);

@@ -54,9 +54,9 @@ SimulationState parse_state(const std::string& text);
 /// `steps` counts the steps that were taken. An attempt at a step is discarded if its equation was not solved or its
 /// error was too large, and the step is repeated as shorter ones; `substeps` counts the discarded attempts. If no
 /// shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
-/// rigid for the step or, in contact, the object stays in place (`steps_rejected`). If these three counts, `stops`,
-/// `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact, one step consists of
-/// several integrations, each a solution of the equation of motion over a part of the step.
+/// rigid for the step or, in contact, the object stays in place (`steps_rejected`; doc/model.md, "Steps that are not
+/// solved"). If the last three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual
+/// happened. In contact, one step may need several integrations of the equation of motion, each over a part of it.
 ///
 /// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
 /// of an error from above, not a rigorous bound (doc/model.md, "Error bound").
@@ -91,7 +91,7 @@ struct AdvanceReport {
   int integrations_without_bound = 0;       ///< integrations that have no error bound
   double energy_error = 0.0;                ///< sum of the steps' estimated errors in energy [J]
   /// Energy created (> 0) or lost (< 0) by the integration itself [J]: the change in the energy of object and fork less
-  /// the work of hand, gravity, damping and contact. Meaningful if every mode is resolved (`stiffest_omega_dt` < 1).
+  /// the work of hand, gravity, damping and contact. Meaningful if `stiffest_omega_dt` is below about 1.
   double energy_balance = 0.0;
   /// @}
   std::bitset<8> ran;  ///< internal: the subsystems that ran, as bits; use active() and skipped()
@@ -122,11 +122,10 @@ struct ChangeReport {
 ///
 /// - Frames: world W, stylus S, handle H, tip E, object O at its centre of mass. z of S and H points along the fork,
 ///   from the hand to the tip. Poses and velocities are in W unless the name says otherwise.
-/// - Hands are numbered from 0 to hands() − 1 (the nodes number them from 1); another number throws InputError. To hold
-///   an object without a button, set `grasp.object`. To begin without any hand, place() objects above the bench and
-///   advance_to() a later time: they fall.
-/// - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may be
-///   pushed in any order relative to each other, but the poses of one hand, and its wrenches, in the order of time.
+/// - Hands are numbered from 0 to hands() − 1 (the nodes count from 1); another number throws InputError. To hold an
+///   object without a button, set `grasp.object`. To begin without a hand, place() objects in the air and advance_to().
+/// - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come
+///   in any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
 /// - Time: the simulation owns its time and reads no clock. The same sequence of calls gives bit-identical results. No
 ///   result is ever NaN. Times are those of the hand's clock, with any origin. World time runs
 ///   `settings().hand_time_scale` times as fast; velocities, rates and `settings().dynamics.step` refer to it.
@@ -259,7 +258,7 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Internal: runs `change`, which returns a message for the user, and reports the message and the change of energy.
+/// Internal: runs `change`, which returns a message for the user. Reports the message and the change of energy.
 ChangeReport with_energy_report(const Simulation& simulation, const std::function<std::string()>& change);
 
 }  // namespace spring_workbench::simulation

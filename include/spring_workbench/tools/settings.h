@@ -20,7 +20,7 @@ struct LimitSettings {
   LimitAction action = LimitAction::let_go;                 ///< key `limit.action`
 };
 
-/// Objects for which the stiffness of a tool is chosen: none, each one when it is grasped, or all of the scene together.
+/// Objects for which a tool's stiffness is chosen: none, each one when it is grasped, or all of the scene together.
 enum class Calibration { none, object, world };
 /// Their words in settings.
 inline std::vector<std::string> names_of(Calibration) { return {"none", "object", "world"}; }

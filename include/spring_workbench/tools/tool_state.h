@@ -45,7 +45,7 @@ struct ToolState {
   RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus
   /// Pose of the handle. It differs from the pose of the stylus after a calibration or a regrasp.
   RigidTransform X_WH = RigidTransform::Identity();
-  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the handle that acts on the object (doc/model.md)
+  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the proxy handle, which pulls (doc/model.md)
   RigidTransform X_WE = RigidTransform::Identity();        ///< pose of the tip
   Twist V_WE_W;                                            ///< velocity of the tip, world axes [m/s, rad/s]
   /// @}
