@@ -21,8 +21,7 @@ struct ReacquisitionCounts {
 ///
 /// From sample to sample the followed pose moves by the step of the tracked hand. In addition it moves towards the
 /// tracked pose, at `reacquisition_speed` and `reacquisition_turn_rate`, and at the end with a time constant of 0.1 s.
-/// Both speeds are ramped up smoothly over 0.2 s. The followed hand is faster than the tracked one by at most these
-/// two.
+/// Both speeds are ramped up smoothly over 0.2 s, and the followed hand exceeds the tracked one by no more.
 class Reacquisition {
  public:
   explicit Reacquisition(const InputSettings& settings) : settings_(settings) {}  ///< copies the settings
