@@ -141,9 +141,9 @@ void bind_state_access(py::class_<Simulation>& type) {
       .def_property_readonly(
           "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
           "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
-      .def_property_readonly("contacts", &Simulation::contacts,
-                             "Current contacts, and those that ended in the last call of `advance_to`: a list of "
-                             "ContactState.")
+      .def_property_readonly(
+          "contacts", &Simulation::contacts,
+          "The present contacts, and the contacts that ended in the last call of `advance_to`: a list of ContactState.")
       .def("tool", &Simulation::tool, py::arg("hand") = 0, "Returns the state of the tool in a hand.")
       .def_property_readonly("elastic_energy", &Simulation::elastic_energy, "Energy stored in all tools [J].")
       .def_property_readonly("energy", &Simulation::energy,

@@ -200,7 +200,7 @@ steps_among_movable are in C++ only.)")
       .def_readonly("elastic_energy_after", &ChangeReport::elastic_energy_after,
                     "Energy stored in all tools just after the change [J].")
       .def_readonly("energy_added", &ChangeReport::energy_added, "Increase of `Simulation.energy` by the change [J].")
-      .def_readonly("message", &ChangeReport::message, "One line for the user that says what was changed.");
+      .def_readonly("message", &ChangeReport::message, "Description of the change for the user, in one line.");
 }
 
 }  // namespace

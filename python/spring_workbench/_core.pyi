@@ -319,7 +319,7 @@ class ChangeReport:
         """Increase of `Simulation.energy` by the change [J]."""
     @property
     def message(self) -> str:
-        """One line for the user that says what was changed."""
+        """Description of the change for the user, in one line."""
 
 class SimulationState:
     """Saved state of a whole simulation, from Simulation.save(). States can be compared and pickled."""
@@ -412,7 +412,8 @@ class Simulation:
         """True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,)."""
     @property
     def contacts(self) -> List[ContactState]:
-        """Current contacts, and those that ended in the last call of `advance_to`: a list of ContactState."""
+        """The present contacts, and the contacts that ended in the last call of `advance_to`: a list of
+        ContactState."""
     def tool(self, hand: int = 0) -> ToolState:
         """Returns the state of the tool in a hand."""
     @property

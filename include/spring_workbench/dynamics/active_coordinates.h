@@ -11,7 +11,7 @@ namespace spring_workbench::dynamics {
 /// State of the held body in the active strain coordinates. rod::ShapeModel says their units.
 struct StrainState {
   rod::StrainVector q;      ///< strain coordinates
-  rod::StrainVector q_dot;  ///< their rates, in the unit of each coordinate per second
+  rod::StrainVector q_dot;  ///< rates of the coordinates, each in the unit of its coordinate per second
 
   void exchange(math::StateArchive& state) { state(q, q_dot); }  ///< saves or restores both
 };

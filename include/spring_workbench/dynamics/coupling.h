@@ -34,8 +34,8 @@ class Coupling {
  public:
   /// Stiffness and damping of the object at its present pose: 6 × 6 [linear; angular], symmetric, ≥ 0.
   struct Springs {
-    Matrix6d stiffness = Matrix6d::Zero();  ///< [N/m, N/rad; N, N·m/rad]
-    Matrix6d damping = Matrix6d::Zero();    ///< in the units of the stiffness times s
+    Matrix6d stiffness = Matrix6d::Zero();  ///< stiffness [N/m, N/rad; N, N·m/rad]
+    Matrix6d damping = Matrix6d::Zero();    ///< damping, in the units of the stiffness times s
     double energy = 0.0;                    ///< elastic energy of the springs [J]
     double dissipated = 0.0;                ///< power that the dampers dissipate [W]
   };
@@ -76,7 +76,7 @@ class Couplings {
   template <typename S>
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): only the first `count` elements are used, in each step
   struct RelativeMotions {
-    /// Largest distance of the frames from the origin of the world, which scales their rounding errors [m].
+    /// Largest distance of the frames from the origin of the world [m]. Rounding errors are in proportion to it.
     double distance = 0.0;
     std::size_t count = 0;                   ///< number of frames
     std::array<RelativeMotion<S>, 3> first;  ///< motions in the first three frames

@@ -73,7 +73,7 @@ class HeldBody {
 
   /// Sets stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio ≥ 0 (Kelvin–Voigt; doc/model.md) per DOF.
   void set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio);
-  /// Sets stiffness k and damping coefficients c per DOF; the unit of c is that of k times s: `D = (c / k) K`.
+  /// Sets stiffness k [N/m, N/m, N·m/rad] and damping coefficients c [N·s/m, N·s/m, N·m·s/rad]: `D = (c / k) K`.
   void set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping);
   /// Sets the same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, with
   /// the mass matrix M of the unstrained fork. D is recomputed by set_dofs().

@@ -87,8 +87,8 @@ class Integrator {
     rod::StrainMatrix q;      ///< change of q per unit of Q
     rod::StrainMatrix q_dot;  ///< change of q̇ per unit of Q
   };
-  /// Optional. Returns the response of a step of `h` [s] from `state`, which contact needs. If not overridden: the
-  /// response of the implicit Euler rule.
+  /// Optional. Returns the response of a step of `h` [s] from `state`, for contact. If not overridden: the response of
+  /// the implicit Euler rule.
   virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
 
   /// Optional. Saves or restores the history. Override it to call `state(a_, b_)` with every member that step() keeps;

@@ -7,11 +7,12 @@ namespace spring_workbench::dynamics {
 
 /// Methods of integration for the motion of a held body (doc/model.md, "Integrators").
 enum class IntegratorKind { exponential, rosenbrock, implicit_euler, paper, semi_implicit_euler, rk4 };
-const std::vector<std::string>& names_of(IntegratorKind);  ///< their words in settings, with all registered ones
+/// The words for the methods in settings, built in or registered.
+const std::vector<std::string>& names_of(IntegratorKind);
 
 /// Inertia of the held object: its own tensor, or I = r² m as in the paper (section 3.1).
 enum class Inertia { exact, point_mass };
-const std::vector<std::string>& names_of(Inertia);  ///< their words in settings
+const std::vector<std::string>& names_of(Inertia);  ///< words for the inertias in settings
 
 /// Integrator and steps of the held objects.
 struct DynamicsSettings {

@@ -11,7 +11,7 @@ namespace spring_workbench::hand_input {
 
 /// Treatment of a held object whose hand is lost: it stays where the hand was last (freeze), or it is released.
 enum class OnLoss { freeze, release };
-const std::vector<std::string>& names_of(OnLoss);  ///< their words in settings
+const std::vector<std::string>& names_of(OnLoss);  ///< words for the treatments in settings
 
 /// Settings by which the samples of a tracker are accepted, filtered and followed. Their keys begin with `input.`.
 struct InputSettings {

@@ -8,11 +8,11 @@
 
 namespace spring_workbench::motion {
 
-/// A frame's motion at one moment, in world axes: pose, velocity [m/s, rad/s] and acceleration [m/s², rad/s²].
+/// Motion of a frame at one moment, in world axes.
 struct MotionState {
   RigidTransform X = RigidTransform::Identity();  ///< pose
-  Twist velocity;                                 ///< [m/s, rad/s]
-  Twist acceleration;                             ///< [m/s², rad/s²]
+  Twist velocity;                                 ///< velocity [m/s, rad/s]
+  Twist acceleration;                             ///< acceleration [m/s², rad/s²]
 };
 
 /// Motion of a frame B at one moment, with angular velocity and acceleration in its own axes.

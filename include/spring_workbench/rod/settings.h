@@ -57,12 +57,12 @@ struct PerDofChange {
 /// Shape models of the fork: a rod whose curvature is constant or linear along it, or a bushing, which has springs at
 /// its tip instead of a rod (doc/model.md, "Shape models").
 enum class ShapeKind { constant, linear, bushing };
-const std::vector<std::string>& names_of(ShapeKind);  ///< their words in settings
+const std::vector<std::string>& names_of(ShapeKind);  ///< words for the shape models in settings
 
 /// Meaning of the damping values: one ratio per DOF (Kelvin–Voigt), one ratio for all modes of the held body, or one
 /// coefficient per DOF.
 enum class DampingLaw { per_dof, modal, coefficients };
-const std::vector<std::string>& names_of(DampingLaw);  ///< their words in settings
+const std::vector<std::string>& names_of(DampingLaw);  ///< words for the damping laws in settings
 
 /// Settings of the spring-fork's elastic part (doc/model.md, "The rod").
 struct ForkSettings {

@@ -41,7 +41,7 @@ struct Body {
   MassProperties mass_properties;                    ///< zero for a body that is immovable or has no mass
   Material material;                                 ///< material of the whole surface
   std::vector<geometry::Shape> collision;            ///< shapes for contact
-  std::vector<geometry::Shape> visual;               ///< shapes for display; if the URDF has none, those for contact
+  std::vector<geometry::Shape> visual;  ///< shapes for display; if the URDF has none, the shapes for contact
 };
 
 /// Contact mode. `none`: no contact. `stop`: a held or falling object stops at other bodies. `dynamic`: it also moves
@@ -67,7 +67,7 @@ struct Scene {
   std::string name;                         ///< name of the URDF file without .urdf
   std::string path;                         ///< path of the URDF
   std::vector<Body> bodies;                 ///< all bodies, movable and fixed
-  double gravity = default_gravity;         ///< [m/s²], along −z of world; ≥ 0
+  double gravity = default_gravity;         ///< gravity along −z of world [m/s²], ≥ 0
   double bench_height = 0.0;                ///< z of the workbench plane in world [m]
   Material bench_material;                  ///< material of the bench, and the default for the bodies
   ContactMode contact = ContactMode::stop;  ///< contact mode; the setting `contact` overrides it

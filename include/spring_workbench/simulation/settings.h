@@ -83,11 +83,11 @@ void validate(const ObjectEdit& edit);
 
 /// Description of one key of SimulationSettings.
 struct SettingDescription {
-  std::string key;            ///< e.g. "fork.stiffness.bend"
-  std::string type;           ///< bool, int, double, string, double list
+  std::string key;            ///< key, e.g. "fork.stiffness.bend"
+  std::string type;           ///< type: bool, int, double, string or double list
   std::string unit;           ///< SI unit, or "–"
-  std::string allowed;        ///< e.g. "> 0"
-  std::string default_value;  ///< as text
+  std::string allowed;        ///< allowed values, e.g. "> 0"
+  std::string default_value;  ///< default value, as text
   std::string meaning;        ///< effect of the setting, in one line
 };
 std::vector<SettingDescription> setting_descriptions();  ///< descriptions of all settings

@@ -107,7 +107,7 @@ struct ChangeReport {
   double elastic_energy_before = 0.0;  ///< energy stored in all tools just before the change [J]
   double elastic_energy_after = 0.0;   ///< energy stored in all tools just after the change [J]
   double energy_added = 0.0;           ///< increase of Simulation::energy() by the change [J]
-  std::string message;                 ///< one line for the user that says what was changed
+  std::string message;                 ///< description of the change for the user, in one line
 };
 
 /// Simulates a scene with hands and their tools, and runs only the subsystems that the scene needs.
@@ -239,7 +239,7 @@ class Simulation {
   /// Sum of elastic_energy() and the kinetic and potential energy of the objects (zero at z = 0) [J]. It excludes the
   /// energy stored in compliant materials.
   double energy() const;
-  /// The present contacts, and those that ended in the last advance_to().
+  /// The present contacts, and the contacts that ended in the last advance_to().
   const std::vector<contact::ContactState>& contacts() const;
 
   /// Saves the whole state: time, hands with their input and tools, objects, contacts, histories of integrators, edits,

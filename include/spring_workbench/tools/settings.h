@@ -11,7 +11,7 @@ namespace spring_workbench::tools {
 
 /// Behaviour of a tool at its limit: it lets the object go, or it slips in the hand and pulls on with the limit force.
 enum class LimitAction { let_go, slip };
-inline std::vector<std::string> names_of(LimitAction) { return {"let_go", "slip"}; }  ///< their words in settings
+inline std::vector<std::string> names_of(LimitAction) { return {"let_go", "slip"}; }  ///< words in settings
 
 /// Largest force and moment of a tool at its tip, and the behaviour beyond them.
 struct LimitSettings {
@@ -22,7 +22,7 @@ struct LimitSettings {
 
 /// Objects for which a tool's stiffness is chosen: none, each one when it is grasped, or all of the scene together.
 enum class Calibration { none, object, world };
-/// Their words in settings.
+/// Words for the calibrations in settings.
 inline std::vector<std::string> names_of(Calibration) { return {"none", "object", "world"}; }
 
 /// Deformation, under the weight of an object, of a fork that is calibrated to it (paper, sections 3.1 and 3.2).
@@ -43,7 +43,7 @@ struct WorldGoal {
 
 /// Motion of an object after its release: it keeps its velocity (thrown) or starts from rest (dropped).
 enum class Release { thrown, dropped };
-inline std::vector<std::string> names_of(Release) { return {"thrown", "dropped"}; }  ///< their words in settings
+inline std::vector<std::string> names_of(Release) { return {"thrown", "dropped"}; }  ///< words in settings
 
 /// How tools grasp, calibrate and release.
 struct GraspSettings {

@@ -45,7 +45,7 @@ struct ToolState {
   RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus
   /// Pose of the handle. It differs from the pose of the stylus after a calibration or a regrasp.
   RigidTransform X_WH = RigidTransform::Identity();
-  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the proxy handle, which pulls (doc/model.md)
+  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the handle that pulls (doc/model.md)
   RigidTransform X_WE = RigidTransform::Identity();        ///< pose of the tip
   Twist V_WE_W;                                            ///< velocity of the tip, world axes [m/s, rad/s]
   /// @}
@@ -65,8 +65,8 @@ struct ToolState {
   /// @{
   double weight = 0.0;              ///< reading as a scale: upward force on the object / g, a mass [vkg: virtual kg]
   double torque = 0.0;              ///< reading as a torque wrench: moment about the tool's axis at the tip [N·m]
-  Reading weight_average;           ///< [vkg]; left empty by `Simulation`, filled in by nodes
-  Reading torque_average;           ///< [N·m]; left empty by `Simulation`, filled in by nodes
+  Reading weight_average;           ///< average of `weight` [vkg]; set by nodes, not by Simulation
+  Reading torque_average;           ///< average of `torque` [N·m]; set by nodes, not by Simulation
   double probe_damping = 0.0;       ///< coefficient of the touching probe's own damper [N·s/m]
   double material_stiffness = 0.0;  ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
