@@ -56,7 +56,7 @@ class Coupling {
   virtual void pull(const math::Pack& t, const RelativeMotion<math::Pack>& A_O, Pull<math::Pack>& pull) const = 0;
   /// Returns stiffness, damping and energy at time `t` [s], linearised at this motion of the object, in the axes of A.
   virtual Springs springs(double t, const RelativeMotion<double>& A_O) const = 0;
-  /// Optional. Called at the begin of a step, to forget results of the last one. If not overridden: does nothing.
+  /// Optional. Called at the start of a step, to forget results of the last one. If not overridden: does nothing.
   virtual void begin_step() const {}
 };
 

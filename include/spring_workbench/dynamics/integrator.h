@@ -55,7 +55,7 @@ class Integrator {
     conserved,       ///< conserved up to an error; a step with too large an error is not accepted
     dissipated,      ///< partly lost, as by implicit methods of low order; a step that gains too much is not accepted
     unbounded,       ///< arbitrary, as by explicit methods; the energy is not checked
-    not_applicable,  ///< no equation of motion: the method relaxes to a target, the limit for its error estimates
+    not_applicable,  ///< the method relaxes to a target; its error estimates refer to its own limit for short steps
   };
   /// Optional. The effect of this method. If not overridden: unbounded.
   virtual Energy energy() const { return Energy::unbounded; }
@@ -95,7 +95,7 @@ class Integrator {
   /// if one is forgotten, replay and restored runs differ silently. If not overridden: there is no history.
   virtual void exchange(math::StateArchive&) {}
   /// Optional. Whether exchange() restores everything that step() depends on, so that one integrator may be reused for
-  /// another simulation by restoring the history of that one. If not overridden: false.
+  /// another simulation by restoring that simulation's history. If not overridden: false.
   virtual bool restores_completely() const { return false; }
 };
 

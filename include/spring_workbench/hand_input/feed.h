@@ -56,8 +56,7 @@ struct AcceptedInput {
 /// The samples of each hand pass an outlier gate (SampleGate), smoothing, and re-acquisition (Reacquisition). In a live
 /// loop next_stop() decides up to which time the input is complete, so that the result does not depend on when messages
 /// arrive. Offline, push all samples and then call advance_to() for any time. Hands are numbered as in Simulation.
-/// Times are those of the hand's clock [s]. A feed has no thread, log or ROS: the same calls give bit-identical
-/// results.
+/// Times are those of the hand's clock [s]. A feed has no thread; the same calls give bit-identical results.
 class Feed {
  public:
   /// Whether the motion of the hands is predicted for predict(). Prediction costs time for every sample.

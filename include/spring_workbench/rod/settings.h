@@ -26,8 +26,7 @@ inline bool operator==(const PerDof& a, const PerDof& b) {
   return a.stretch == b.stretch && a.bend == b.bend && a.torsion == b.torsion;
 }
 
-/// The DOFs that are switched on (the deformation DOFs of the paper, section 4). The fork is rigid in a DOF that is
-/// off.
+/// The DOFs that are switched on (deformation DOFs of the paper, section 4). The fork is rigid in all other DOFs.
 struct ForkDofs {
   bool stretch = true;  ///< whether the rod can change its length
   bool bend = true;     ///< whether the rod can bend

@@ -29,14 +29,14 @@ struct SimulationSettings {
   bool massless = false;                      ///< key `massless`: whether all objects are without mass
   int styluses = 2;                           ///< key `styluses`, 1 … 255: number of hands
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3: factor on the hand's positions
-  double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3: speed of world time
+  double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3: world time per time of the hand
   int clutch_button = 2;                      ///< key `clutch.button`: index of the clutch's button, for nodes
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `error_bound`, `inertia`
   rod::ForkSettings fork;                     ///< keys `shape`, `fork.…`
   tools::LimitSettings limit;                 ///< keys `limit.…`
   tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;   ///< key `dropout_after` [s], > 0: silence after which a hand rests
-  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10: longest action of a wrench
+  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10: time after which a wrench ends
   int impact_bisections = 8;    ///< key `impact_bisections`, 0 … 30 (paper, section 5); 0: time of impact instead
 };
 

@@ -37,7 +37,7 @@ struct ObjectGoal {
 struct WorldGoal {
   double stretch = 0.3;  ///< key `calibration.world.stretch`: extension of the hanging fork, as a fraction of L
   double bend = 0.4;     ///< key `calibration.world.bend`: deflection of the level fork's tip, as a fraction of L
-  double twist = 0.3;    ///< key `calibration.world.twist` [rad]: torsion at a lever of its radius of gyration
+  double twist = 0.3;    ///< key `calibration.world.twist` [rad]: torsion at a lever of the object's radius of gyration
   std::optional<double> heaviest;  ///< key `calibration.world.heaviest` [kg]; absent: the heaviest mass of the scene
 };
 

@@ -45,9 +45,10 @@ struct ToolState {
   RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus
   /// Pose of the handle. It differs from the pose of the stylus after a calibration or a regrasp.
   RigidTransform X_WH = RigidTransform::Identity();
-  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< pose of the handle that pulls (doc/model.md)
-  RigidTransform X_WE = RigidTransform::Identity();        ///< pose of the tip
-  Twist V_WE_W;                                            ///< velocity of the tip, world axes [m/s, rad/s]
+  /// Pose of the proxy handle (doc/model.md), from which the fork acts. It stays behind X_WH if the object is stopped.
+  RigidTransform X_WH_proxy = RigidTransform::Identity();
+  RigidTransform X_WE = RigidTransform::Identity();  ///< pose of the tip
+  Twist V_WE_W;                                      ///< velocity of the tip, world axes [m/s, rad/s]
   /// @}
   /// @name Forces, energies and errors
   /// @{
@@ -63,7 +64,7 @@ struct ToolState {
   /// @}
   /// @name Instruments
   /// @{
-  double weight = 0.0;              ///< reading as a scale: upward force on the object / g, a mass [vkg: virtual kg]
+  double weight = 0.0;              ///< reading as a scale: upward force on the object over g [vkg: virtual kg]
   double torque = 0.0;              ///< reading as a torque wrench: moment about the tool's axis at the tip [N·m]
   Reading weight_average;           ///< average of `weight` [vkg]; set by nodes, not by Simulation
   Reading torque_average;           ///< average of `torque` [N·m]; set by nodes, not by Simulation
