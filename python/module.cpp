@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* pose_text = R"(Returns a pose as an array of shape (4, 4).
 
-position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputError if one has the wrong
+position: x, y, z [m]. quaternion: x, y, z, w; it is normalised here. Raises InputError if one of them has the wrong
 length or is not finite, or if the quaternion is zero.)";
 
 RigidTransform pose(const std::vector<double>& position, const std::vector<double>& quaternion) {
@@ -41,7 +41,7 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   py::object(input_error).attr("__doc__") =
-      "Invalid input. The message names the field, what is allowed and what was given; the state is unchanged.";
+      "Invalid input. The message names the field, the value and the allowed values. The state is unchanged.";
   bind_settings(module);
   bind_motions(module);
   bind_states(module);

@@ -88,7 +88,7 @@ void bind_scene(py::module& module) {
   using scene::Scene;
   py::class_<Scene>(module, "Scene",
                     "Bodies, materials and gravity of a scene, read from a URDF and the YAML file next to it.")
-      .def_readonly("name", &Scene::name, "Name of the scene: that of its URDF file, without .urdf.")
+      .def_readonly("name", &Scene::name, "Name of the scene: the name of its URDF file without .urdf.")
       .def_readonly("path", &Scene::path, "Path of the URDF.")
       .def_readonly("gravity", &Scene::gravity, "Gravity along -z of the world [m/s²].")
       .def_property_readonly(
@@ -104,19 +104,22 @@ void bind_scene(py::module& module) {
             return masses;
           },
           "Mass of each movable object [kg], by name.")
-      .def_readonly("warnings", &Scene::warnings, "Warnings about what was repaired on loading, one line each.");
+      .def_readonly("warnings", &Scene::warnings, "Repairs that were made on loading, one line each.");
   module.def(
       "load_scene",
       [](const std::string& path, const std::vector<std::string>& roots) { return scene::load_scene(path, roots); },
       py::arg("path"), py::arg("roots") = std::vector<std::string>{},
-      R"(Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.
+      R"(Reads a scene from a URDF (a path or package:// URI) and from the YAML file of the same name next to it,
+if there is one.
 
-roots: folders; if any are given, all files that the scene names must lie below one of them or in a ROS package.
-Raises InputError if a file cannot be read or is not valid.)");
+roots: folders. If any are given, all files that the scene names must be in one of them or in a ROS package. Raises
+InputError if a file cannot be read or is not valid.)");
 }
 
 void bind_state_access(py::class_<Simulation>& type) {
-  type.def_property_readonly("time", &Simulation::time, "Simulated time [s].")
+  type.def_property_readonly("time", &Simulation::time,
+                             "Simulated time [s]. It begins at the time of the first sample, or at the first t_end of "
+                             "advance_to() if earlier.")
       .def_property_readonly("newest_sample_time", &Simulation::newest_sample_time,
                              "Time of the newest sample of any hand, or `time` if there is none [s].")
       .def_property_readonly("names", &names, "Names of the movable objects, in the order of all arrays.")
@@ -125,8 +128,10 @@ void bind_state_access(py::class_<Simulation>& type) {
           [](const Simulation& s) {
             return to_arrays(s.objects().size(), [&](std::size_t i) { return s.objects()[i].X_WO; });
           },
-          "Poses of the objects at their centres of mass; shape (n, 4, 4).")
-      .def_property_readonly("twists", &twists, "Velocity [m/s] and angular velocity [rad/s], world; shape (n, 6).")
+          "Poses of the objects in world, at their centres of mass, positions in m; shape (n, 4, 4).")
+      .def_property_readonly(
+          "twists", &twists,
+          "Velocity [m/s] of each object's centre of mass and angular velocity [rad/s], world axes; shape (n, 6).")
       .def_property_readonly(
           "held", [](const Simulation& s) { return flags(s, &bodies::BodyState::held); },
           "True for each object that a hand holds; shape (n,).")
@@ -136,21 +141,19 @@ void bind_state_access(py::class_<Simulation>& type) {
       .def_property_readonly(
           "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
           "True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,).")
-      .def_property_readonly("contacts", &Simulation::contacts,
-                             "Current contacts, and those that ended in the last call of `advance_to`: a list of "
-                             "ContactState.")
+      .def_property_readonly(
+          "contacts", &Simulation::contacts,
+          "The present contacts, and the contacts that ended in the last call of `advance_to`: a list of ContactState.")
       .def("tool", &Simulation::tool, py::arg("hand") = 0, "Returns the state of the tool in a hand.")
       .def_property_readonly("elastic_energy", &Simulation::elastic_energy, "Energy stored in all tools [J].")
-      .def_property_readonly(
-          "energy", &Simulation::energy,
-          "Energy of tools and objects: elastic, kinetic, and potential (zero at z = 0) [J]; without what is stored in "
-          "compliant materials.")
-      .def("save", &Simulation::save, "Returns the whole state.")
+      .def_property_readonly("energy", &Simulation::energy,
+                             "Energy of tools and objects [J]: elastic, kinetic, and potential (zero at z = 0). It "
+                             "excludes the energy stored in compliant materials.")
+      .def("save", &Simulation::save, "Returns the whole state, from which restore() continues bit-identically.")
       .def("restore", &Simulation::restore, py::arg("state"),
-           "Restores a state saved by a simulation with the same scene and settings, which then continues "
-           "bit-identically. "
-           "Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of the fork "
-           "differ; other settings are not compared.")
+           "Restores a state that a simulation with the same scene and settings saved. The future is then "
+           "bit-identical. Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or "
+           "shape of the fork differ. Other settings are not compared.")
       .def_property_readonly(
           "state_hash", [](const Simulation& s) { return math::to_hex(s.state_hash()); },
           "Hash of the whole state: 16 hexadecimal digits.");
@@ -163,32 +166,41 @@ void bind_changes(py::class_<Simulation>& type) {
             return s.select_tool(value_of<tools::Tool>(tool, "tool"), hand);
           },
           py::arg("tool"), py::arg("hand") = py::none(),
-          "Changes the tool in a hand, or with None in each, to spring, spring_fork, spring_probe, direct or ray. What "
-          "it holds stays in hand, except with spring_probe.")
+          "Changes the tool in a hand or, with None, in every hand: spring, spring_fork, spring_probe, direct or ray. "
+          "The hand keeps its object. The probe cannot hold an object, so a change to spring_probe releases it.")
       // By name only, says the stub: pybind11 before 2.6 cannot.
       .def("change", &change, py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
            py::arg("dofs") = py::none(), py::arg("integrator") = py::none(), py::arg("step") = py::none(),
            py::arg("tolerance") = py::none(), py::arg("damping_coefficient") = py::none(),
            py::arg("damping_law") = py::none(), py::arg("damping") = py::none(), py::arg("hand") = py::none(),
-           R"(Changes the fork of a hand, or with None every fork, and the integration, all or nothing; what is None
-stays as it is.
+           R"(Changes the fork of a hand or, with None, of every hand, and the integration of all hands. It changes all
+or nothing. Values that are None are not changed. A value per DOF is a list of three, for stretch, bend and torsion.
 
-stiffness: of stretch, bend [N/m] and torsion [N m/rad], each a number or None; damping_ratio: of the same three, 0 to
-10; damping_coefficient: of the same three [N s/m, N s/m, N m s/rad]; damping_law: per_dof, modal or coefficients;
-damping: ratios or coefficients, whichever that law or, without one, the fork's present law uses (three different ratios
-turn the present law modal into per_dof); dofs: True for each of the three that is on; integrator, of all hands: see
-integrators(); step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not allowed.)")
+- stiffness: per DOF [N/m, N/m, N m/rad].
+- damping_ratio: per DOF, 0 to 10; 1 is critical.
+- damping_coefficient: per DOF [N s/m, N s/m, N m s/rad].
+- damping_law: per_dof, modal or coefficients.
+- damping: per DOF, coefficients with the law coefficients and ratios with the others. Three different ratios change the
+  law modal to per_dof, unless damping_law asks for modal.
+- dofs: per DOF, True if it is on and False if it is rigid.
+- integrator: a name from integrators().
+- step: largest step [s].
+- tolerance: allowed error of the whole run [m]; 0 for fixed steps.
+
+Raises InputError if a value is not allowed.)")
       .def("calibrate", &Simulation::calibrate, py::arg("hand") = py::none(),
-           "Fits the tool of a hand, or with None of each, to the object that it holds or, with calibrate: world, "
-           "restores the scene's stiffness. Raises InputError if nothing is held by a fork or a spring.")
+           "Calibrates the tool of a hand or, with None, of every hand to the object that it holds. With the setting "
+           "`calibrate: world` it restores the scene's stiffness instead. Raises InputError if no fork or spring holds "
+           "an object.")
       .def("release", &Simulation::release, py::arg("hand") = py::none(),
-           "Releases the object of a hand, or with None those of all hands. Returns False if nothing was held.")
+           "Releases the object of a hand or, with None, of every hand. Returns False if nothing was held.")
       .def(
           "place", [](Simulation& s, const std::map<std::string, Array>& poses) { s.place(to_poses(poses)); },
           py::arg("poses"),
-          R"(Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest.
+          R"(Releases all objects and places the named ones at rest. poses: from the name of an object to its pose,
+shape (4, 4). Unsupported objects then fall.
 
-Raises InputError, and changes nothing, if a name is not that of a movable object or a pose is invalid.)")
+Raises InputError, and changes nothing, if no movable object has such a name or a pose is invalid.)")
       .def(
           "edit",
           [](Simulation& s, const std::string& action, const std::string& name, const std::string& urdf,
@@ -207,13 +219,18 @@ Raises InputError, and changes nothing, if a name is not that of a movable objec
           },
           py::arg("action"), py::arg("name"), py::arg("urdf") = "", py::arg("pose") = py::none(),
           py::arg("mass") = py::none(), py::arg("friction") = py::none(),
-          R"(Changes the object `name`, all or nothing; everything else continues from where it is.
+          R"(Changes the object `name`, all or nothing. Everything else continues as it is.
 
-action: add (needs urdf; at pose or, without one, on the bench), move (needs pose), remove, mass (to mass [kg]; 0:
-massless) or friction (to friction). pose: of its URDF link frame in world, shape (4, 4). Raises InputError if the
-object or a value is not allowed.)")
+- action add: adds the object of the file `urdf` (a path or package:// URI), at `pose` or, without one, on the bench.
+- action move: moves the object to `pose`.
+- action remove: removes the object.
+- action mass: sets the mass to `mass` [kg]; 0 makes the object massless.
+- action friction: sets the Coulomb coefficient to `friction`.
+
+pose: pose of the object's URDF link frame in world, shape (4, 4). Raises InputError if the object or a value is not
+allowed.)")
       .def("reset", &Simulation::reset,
-           "Returns all objects to their initial poses; nothing is held, and all samples are forgotten.");
+           "Releases all objects, returns them to their start poses and forgets all samples.");
 }
 
 void update(SimulationSettings& settings, const py::dict& values) {
@@ -235,12 +252,12 @@ void bind_settings(py::module& module) {
       .def_readonly("type", &SettingDescription::type, "Type of the value.")
       .def_readonly("unit", &SettingDescription::unit, "SI unit of the value.")
       .def_readonly("allowed", &SettingDescription::allowed, "Values that are allowed.")
-      .def_readonly("default", &SettingDescription::default_value, "Value if none is given.")
-      .def_readonly("meaning", &SettingDescription::meaning, "What the setting does.");
+      .def_readonly("default", &SettingDescription::default_value, "Default value, as text.")
+      .def_readonly("meaning", &SettingDescription::meaning, "Effect of the setting, in one line.");
   module.def("setting_descriptions", &simulation::setting_descriptions, "Returns the descriptions of all settings.");
   py::class_<SimulationSettings>(module, "SimulationSettings",
-                                 "Settings of a simulation by key, checked when they are set; setting_descriptions() "
-                                 "explains them. They cannot be read back: keep the dictionary.")
+                                 "Settings of a simulation by key, checked when they are set. setting_descriptions() "
+                                 "explains each key. Settings cannot be read back: keep the dictionary.")
       .def(py::init(&to_settings), py::arg("values") = py::dict(),
            "values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown "
            "key, a wrong type or a value that is not allowed.")
@@ -259,34 +276,44 @@ void bind_simulation(py::module& module) {
     simulation.advance_to(1.0)
     print(simulation.poses[0][:3, 3])
 
-It reads no clock and starts no thread; the same calls give bit-identical results. Not thread-safe; a copy is a new
-Simulation that restores a saved state. `hand` is 0 for the first stylus (nodes count styluses from 1), at most the
-setting `styluses` - 1; another raises InputError, a negative one TypeError. Arrays are copies.)");
-  type.def(
-          py::init([](const scene::Scene& scene, const std::variant<SimulationSettings, py::dict>& settings) {
-            if (const auto* ready = std::get_if<SimulationSettings>(&settings)) return Simulation(scene, *ready);
-            return Simulation(scene, to_settings(std::get<py::dict>(settings)));
-          }),
-          py::arg("scene"), py::arg_v("settings", SimulationSettings(), "SimulationSettings()"),
-          "Starts a simulation of `scene`. settings: SimulationSettings or the dictionary for it. Raises InputError if "
-          "a setting is not allowed or does not match the scene.")
+- Hands: `hand` is 0 for the first stylus (nodes count styluses from 1), at most the setting `styluses` - 1. Another
+  number raises InputError, and a negative one TypeError. To hold an object without a button, use the setting
+  `grasp.object`. To begin without a hand, place() objects in the air and call advance_to().
+- Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come in
+  any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
+- Time: a simulation reads no clock and starts no thread. The same sequence of calls gives bit-identical results. No
+  result is ever NaN.
+- Copies: arrays are copies. To copy a simulation, restore its saved state in a new one of the same scene and settings.
+  A simulation is not thread-safe.)");
+  type.def(py::init([](const scene::Scene& scene, const std::variant<SimulationSettings, py::dict>& settings) {
+             if (const auto* ready = std::get_if<SimulationSettings>(&settings)) return Simulation(scene, *ready);
+             return Simulation(scene, to_settings(std::get<py::dict>(settings)));
+           }),
+           py::arg("scene"), py::arg_v("settings", SimulationSettings(), "SimulationSettings()"),
+           "Starts a simulation of `scene`. settings: SimulationSettings, or the dictionary for it. Raises InputError "
+           "if a setting is not allowed or does not match the scene.")
       .def(
           "push_stylus",
           [](Simulation& s, double t, const Array& pose, std::size_t hand) {
             return s.push_stylus({t, to_pose(pose, "pose")}, hand);
           },
           py::arg("t"), py::arg("pose"), py::arg("hand") = 0,
-          "Adds a pose of the stylus, shape (4, 4), at time t [s]; its z axis is that of the fork, from the hand to "
-          "the tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is "
-          "invalid.")
+          R"(Adds a pose of the stylus in world, shape (4, 4) [m], at time t [s]. Its z axis points along the fork,
+from the hand to the tip.
+
+The hand moves smoothly between poses and rests after the last one. If the gap between two poses is longer than the
+setting `dropout_after` (0.5 s), the hand stays at the first until the time of the second, and then jumps to it. Returns
+False, and ignores the pose, if t is not later than the time of the newest one. Raises InputError if the pose is
+invalid.)")
       .def("push_button", &Simulation::push_button, py::arg("t"), py::arg("pressed"), py::arg("hand") = 0,
            "Presses (True) or releases (False) the grasp button at time t [s]. Raises InputError if t is not finite.")
       .def("push_next_tool", &Simulation::push_next_tool, py::arg("t"), py::arg("hand") = 0,
            "Selects the next tool at time t [s] or, while something is held, the next tool that can hold it. Raises "
            "InputError if t is not finite.")
       .def("push_clutch", &Simulation::push_clutch, py::arg("t"), py::arg("on"), py::arg("hand") = 0,
-           "Switches the clutch at time t [s]: while it is on, the tool and what it holds stay in place and the hand "
-           "moves alone; once it is off, they follow its further motion. Raises InputError if t is not finite.")
+           "Switches the clutch at time t [s]. While it is on, the tool and its object stay in place and the hand "
+           "moves alone. Once it is off, they follow the hand's further motion from there. Raises InputError if t is "
+           "not finite.")
       .def(
           "push_external_wrench",
           [](Simulation& s, double t, const Array& wrench, const std::string& axes, std::size_t hand) {
@@ -297,17 +324,18 @@ setting `styluses` - 1; another raises InputError, a negative one TypeError. Arr
           py::arg("t"), py::arg("wrench"), py::arg("axes") = "world", py::arg("hand") = 0,
           R"(Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
 
-axes: world, or tip (the axes turn with it). It is in real units: multiplied by the scene's force_scale, it acts until
-the next one, at most for external_wrench_timeout. Raises InputError if a value is not allowed.)")
+axes: world, or tip (the axes turn with the tip). The wrench is in real units: it is multiplied by the scene's
+force_scale. It acts until the next wrench, but at most for the setting `external_wrench_timeout`. It replaces pending
+wrenches of its own or a later time. Raises InputError if a value is not allowed.)")
       .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0,
-           R"(Adds the samples and button edges of a recorded motion; returns the number of samples that were added.
+           R"(Adds the samples and button edges of a recorded motion. Returns the number of samples that were added.
 
-As push_stylus, it ignores each pose whose time is not later than that of the newest one. Raises InputError if a pose is
-invalid.)")
+Like push_stylus, it ignores each pose whose time is not later than the time of the newest one. Raises InputError if a
+pose is invalid.)")
       .def("advance_to", &Simulation::advance_to, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
            R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
-If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act. Raises
+If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still act. Raises
 InputError if t_end is not finite.)");
   bind_state_access(type);
   bind_changes(type);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Everything that a program needs of the library. Begin with simulation::Simulation, scene::load_scene() and
-/// make_transform(); doc/library.md shows how they work together.
+/// Includes everything that a program needs of the library. Begin with simulation::Simulation, scene::load_scene() and
+/// make_transform(); doc/library.md shows how they work together. Units are SI, and frames are right-handed with z up.
 namespace spring_workbench {
 /// Scenes, read from URDF.
 namespace scene {}
@@ -25,9 +25,10 @@ namespace motion {}
 namespace motion_files {}
 /// Filters between a tracker and the simulation.
 namespace hand_input {}
-/// Numbers and saved states.
+/// Numbers, poses and saved states. Packs, which hold several numbers, only make built-in methods fast: users of the
+/// interface with `double` can ignore them.
 namespace math {}
-/// Errors in input.
+/// Errors in the user's input.
 namespace validation {}
 }  // namespace spring_workbench
 

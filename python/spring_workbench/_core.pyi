@@ -12,7 +12,7 @@ _Axes = Literal["world", "tip"]
 _DampingLaw = Literal["per_dof", "modal", "coefficients"]
 
 class InputError(ValueError):
-    """Invalid input. The message names the field, what is allowed and what was given; the state is unchanged."""
+    """Invalid input. The message names the field, the value and the allowed values. The state is unchanged."""
 
 class SettingDescription:
     """Description of one setting."""
@@ -30,14 +30,14 @@ class SettingDescription:
         """Values that are allowed."""
     @property
     def default(self) -> str:
-        """Value if none is given."""
+        """Default value, as text."""
     @property
     def meaning(self) -> str:
-        """What the setting does."""
+        """Effect of the setting, in one line."""
 
 class SimulationSettings:
-    """Settings of a simulation by key, checked when they are set; setting_descriptions() explains them. They cannot be
-    read back: keep the dictionary."""
+    """Settings of a simulation by key, checked when they are set. setting_descriptions() explains each key. Settings
+    cannot be read back: keep the dictionary."""
     def __init__(self, values: Mapping[str, Any] = ...) -> None:
         """values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown
         key, a wrong type or a value that is not allowed."""
@@ -48,7 +48,7 @@ class Scene:
     """Bodies, materials and gravity of a scene, read from a URDF and the YAML file next to it."""
     @property
     def name(self) -> str:
-        """Name of the scene: that of its URDF file, without .urdf."""
+        """Name of the scene: the name of its URDF file without .urdf."""
     @property
     def path(self) -> str:
         """Path of the URDF."""
@@ -59,17 +59,17 @@ class Scene:
     def contact(self) -> Literal["none", "stop", "dynamic"]:
         """Contact mode: none, stop or dynamic."""
     @property
-    def tool(self) -> str:
+    def tool(self) -> _Tool:
         """Name of the tool with which each hand starts."""
     @property
     def masses(self) -> Dict[str, float]:
         """Mass of each movable object [kg], by name."""
     @property
     def warnings(self) -> List[str]:
-        """Warnings about what was repaired on loading, one line each."""
+        """Repairs that were made on loading, one line each."""
 
 class Motion:
-    """Recorded motion of one hand."""
+    """Recorded motion of one hand, from read_motion()."""
     def __len__(self) -> int:
         """Number of samples."""
     @property
@@ -77,13 +77,14 @@ class Motion:
         """Times of the samples since the first one [s]; shape (n,)."""
     @property
     def poses(self) -> _Floats:
-        """Poses of the stylus; shape (n, 4, 4)."""
+        """Poses of the stylus in world, positions in m; shape (n, 4, 4)."""
     @property
     def buttons(self) -> _Bools:
         """True for each sample at which the grasp button is down; shape (n,)."""
 
 class ToolState:
-    """State of the tool in one hand at one moment."""
+    """State of the tool in one hand at one moment. A pose is a 4 x 4 array that takes coordinates of its frame to
+    world, positions in m."""
     @property
     def present(self) -> bool:
         """True once a sample of this hand has arrived."""
@@ -107,24 +108,24 @@ class ToolState:
         """Rest length of the fork [m]."""
     @property
     def dofs(self) -> List[bool]:
-        """True for each of stretch, bend and torsion that is on; a DOF that is off is rigid."""
+        """True for each DOF of stretch, bend and torsion that is on. The fork is rigid in a DOF that is off."""
     @property
     def stiffness(self) -> _Floats:
         """Stiffness of stretch, bend [N/m] and torsion [N m/rad]; shape (3,)."""
     @property
     def damping_ratio(self) -> _Floats:
-        """Damping ratio of stretch, bend and torsion, in force with the laws per_dof and modal; shape (3,)."""
+        """Damping ratio of stretch, bend and torsion, used by the laws per_dof and modal; shape (3,)."""
     @property
     def damping_coefficient(self) -> _Floats:
-        """Damping coefficient of stretch, bend [N s/m] and torsion [N m s/rad], in force with the law coefficients;
-        shape (3,)."""
+        """Damping coefficient of stretch, bend [N s/m] and torsion [N m s/rad], used by the law coefficients; shape
+        (3,)."""
     @property
     def damping_law(self) -> _DampingLaw:
-        """Damping law: per_dof, modal or coefficients."""
+        """Damping law in force: per_dof, modal or coefficients."""
     @property
     def strain(self) -> _Floats:
-        """Strain coordinates of the shape model: bend and torsion [1/m], stretch [-]; for bushing displacements [m] and
-        a rotation vector [rad]. Zero while nothing is held; shape (n,), n at most 6."""
+        """Strain coordinates of the shape model: bend and torsion [1/m], stretch [-]. The coordinates of bushing are
+        displacements [m] and a rotation vector [rad]. Zero while nothing is held; shape (n,), n at most 6."""
     @property
     def stretch(self) -> float:
         """Extension along the fork [m]."""
@@ -133,7 +134,7 @@ class ToolState:
         """Deflection of the tip along x and y of the handle [m]; shape (2,)."""
     @property
     def torsion(self) -> float:
-        """Twist angle [rad]."""
+        """Angle of torsion about the fork [rad]."""
     @property
     def stylus_pose(self) -> _Floats:
         """Pose of the stylus in world; shape (4, 4)."""
@@ -142,42 +143,42 @@ class ToolState:
         """Pose of the handle in world; shape (4, 4)."""
     @property
     def proxy_handle_pose(self) -> _Floats:
-        """Pose of the proxy handle, from which the fork acts, in world; it lags behind `handle_pose` if the object
+        """Pose of the proxy handle in world, from which the fork acts. It stays behind `handle_pose` if the object
         cannot follow; shape (4, 4)."""
     @property
     def tip_pose(self) -> _Floats:
         """Pose of the tip in world; shape (4, 4)."""
     @property
     def tip_wrench(self) -> _Floats:
-        """Force [N] and moment [N m] on the object at the tip, world axes; shape (6,)."""
+        """Force [N] on the object and its moment [N m] about the tip, world axes; shape (6,)."""
     @property
     def handle_wrench(self) -> _Floats:
-        """Force [N] and moment [N m] on the hand, in the handle's axes; shape (6,)."""
+        """Force [N] on the hand and its moment [N m] about the handle's origin, axes of the handle; shape (6,)."""
     @property
     def elastic_energy(self) -> float:
         """Energy stored in the fork [J]."""
     @property
     def kinetic_energy(self) -> float:
-        """Kinetic energy of the held object [J]."""
+        """Kinetic energy of the held object, in world [J]."""
     @property
     def error_bound(self) -> Optional[float]:
-        """Estimate from above, not rigorous, of the error of integration in position since the grasp or the last step
-        without one [m]; None if the setting `error_bound` is off or, e.g., in contact."""
+        """Bound of the error of integration in position [m], accumulated since the grasp or since the last step without
+        a bound. It is an estimate from above, not rigorous. None in contact, or if the setting `error_bound` is off."""
     @property
     def weight(self) -> float:
-        """Reading as a scale: upward force on the object divided by g, a mass [vkg: virtual kg]."""
+        """Reading as a scale [vkg: virtual kg]: upward force on the object divided by g."""
     @property
     def torque(self) -> float:
-        """Reading as a torque wrench: moment about the tool's axis at the tip [N m]."""
+        """Reading as a torque wrench [N m]: moment about the tool's axis at the tip."""
     @property
     def stretching_force(self) -> float:
         """Axial force at the handle, > 0 in tension [N] (the paper, section 4)."""
     @property
     def bending_force(self) -> float:
-        """Transverse force at the handle [N]."""
+        """Transverse force at the handle [N] (the paper, section 4)."""
     @property
     def force_angle(self) -> float:
-        """Angle between the tool's axis and the force on it, 0 to pi [rad]."""
+        """Angle between the tool's axis and the force on it, 0 to pi [rad] (the paper, section 4)."""
     @property
     def load(self) -> float:
         """Load as a fraction of the scene's range of loads, 0 to 1."""
@@ -192,73 +193,83 @@ class ToolState:
         """One standard deviation of `material_stiffness` [N/m]."""
 
 class ContactState:
-    """Contact point between an object and another body, in world axes."""
+    """One contact point of an object with another body."""
     @property
     def object(self) -> str:
         """Name of the object."""
     @property
     def other(self) -> str:
-        """Name of the other body, or `workbench`."""
+        """Name of the other body; `workbench` is the bench."""
     @property
     def point(self) -> _Floats:
         """Position of the contact point in the world [m]; shape (3,)."""
     @property
     def normal(self) -> _Floats:
-        """Unit vector towards `object`; shape (3,)."""
+        """Unit normal of the surface, towards `object`, world axes; shape (3,)."""
     @property
     def depth(self) -> float:
-        """Penetration along the normal [m]."""
+        """Depth of penetration along the normal [m]."""
     @property
     def impulse(self) -> float:
         """Normal impulse in the last step [N s]."""
     @property
     def force(self) -> float:
-        """Mean normal force in the last step [N]."""
+        """This point's share of the normal force between the two bodies, as a mean over the last 20 ms [N]. Once the
+        contact has ended, the force is the share in its last step."""
     @property
     def slip_speed(self) -> float:
         """Speed of the object along the surface [m/s]."""
     @property
     def phase(self) -> Literal["started", "persisting", "ended"]:
-        """Phase of the contact: started, persisting or ended."""
+        """Phase in the last call of `advance_to`: started, persisting or ended."""
 
 class AdvanceReport:
-    """Report of one call of `advance_to`. Error bounds are empirical estimates from above, not rigorous (doc/model.md).
-    An integration is one solution of the equation of motion over a step or a part of one: in contact there are several
-    in a step."""
+    """Report on one call of `advance_to`.
+
+    `steps` counts the steps that were taken. An attempt at a step is discarded if its equation was not solved or its
+    error was too large, and the step is repeated as shorter ones; `substeps` counts the discarded attempts. If no
+    shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
+    rigid for the step or, in contact, the object stays in place (`steps_rejected`). If the last three, `stops`,
+    `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact, one step may need
+    several integrations of the equation of motion, each over a part of it.
+
+    An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
+    of an error from above, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
+    steps_among_movable are in C++ only."""
     @property
     def steps(self) -> int:
         """Number of steps taken."""
     @property
     def substeps(self) -> int:
-        """Number of steps that were discarded and repeated as shorter ones, since the equation was not solved or the
-        error too large (other engines call a part of a step that is taken a substep)."""
+        """Number of attempts at a step that were discarded and repeated as shorter steps."""
     @property
     def simulated_time(self) -> float:
         """Time simulated by this call [s]."""
     @property
     def position_error(self) -> float:
-        """Largest estimate of a step's local error [m]."""
+        """Largest estimate of a step's local error in position [m]."""
     @property
     def angle_error(self) -> float:
-        """Largest estimate of a step's local error in the angle [rad]."""
+        """Largest estimate of a step's local error in angle [rad]."""
     @property
     def local_error_bound(self) -> Optional[float]:
         """Largest bound of a step's local error in position [m]; None if no step has one."""
     @property
     def error_bound(self) -> Optional[float]:
-        """Largest bound of an object's error in position since its grasp, or since its last step without a bound [m];
-        None if no step has one, e.g. without the setting `error_bound`."""
+        """Largest bound of an object's error in position [m], accumulated since its grasp or since its last step
+        without a bound. None if no step has a bound, e.g. because the setting `error_bound` is off."""
     @property
     def angle_error_bound(self) -> Optional[float]:
-        """Largest bound of an object's error in angle since its grasp, or since its last step without a bound [rad];
-        None if no step has one."""
+        """Largest bound of an object's error in angle [rad], accumulated like `error_bound`. None if no step has a
+        bound."""
     @property
     def integrations_without_bound(self) -> int:
-        """Number of integrations without an error bound: all, unless the setting `error_bound` is on."""
+        """Number of integrations without an error bound. If the setting `error_bound` is off, no integration has
+        one."""
     @property
     def energy_balance(self) -> float:
-        """Energy of the held object and the fork beyond the work of hand, gravity, damping and contact [J]; meaningful
-        if stiffest_omega_dt is below about 1."""
+        """Energy created (> 0) or lost (< 0) by the integration itself [J]: the change in the energy of object and fork
+        less the work of hand, gravity, damping and contact. Meaningful if `stiffest_omega_dt` is below about 1."""
     @property
     def energy_error(self) -> float:
         """Sum of the steps' estimated errors in energy [J]."""
@@ -270,11 +281,11 @@ class AdvanceReport:
         """Number of queries to the collision library."""
     @property
     def stops(self) -> int:
-        """Number of steps in which the fork reached the end of its range (fully compressed or wound up); unrelated to
+        """Number of steps in which the fork reached the end of its range: fully compressed or wound up. Unrelated to
         the contact mode stop."""
     @property
     def steps_fallback(self) -> int:
-        """Number of integrations by an L-stable rule, since the integrator's own equation was not solved."""
+        """Number of integrations by the L-stable rule, in place of the integrator."""
     @property
     def steps_blocked(self) -> int:
         """Number of steps in which no admissible motion of an object was found, so that it stayed in place."""
@@ -287,17 +298,16 @@ class AdvanceReport:
         """Time during which an object did not follow its equation of motion [s]."""
     @property
     def steps_rejected(self) -> int:
-        """Number of steps without a usable result (non-finite or out of range): the fork is rigid for that step or, in
-        contact, the object stays."""
+        """Number of steps without a usable result (non-finite or out of range)."""
     @property
     def active(self) -> List[str]:
         """Names of the subsystems that ran."""
     @property
     def skipped(self) -> List[str]:
-        """Names of the subsystems that were not needed."""
+        """Names of the subsystems that the scene did not need."""
 
 class ChangeReport:
-    """Report of a change while running."""
+    """Report on a change to a running simulation: its effect on the energy."""
     @property
     def elastic_energy_before(self) -> float:
         """Energy stored in all tools just before the change [J]."""
@@ -306,16 +316,17 @@ class ChangeReport:
         """Energy stored in all tools just after the change [J]."""
     @property
     def energy_added(self) -> float:
-        """What the change adds to `Simulation.energy` [J]."""
+        """Increase of `Simulation.energy` by the change [J]."""
     @property
     def message(self) -> str:
-        """What was changed, in one line."""
+        """Description of the change for the user, in one line."""
 
 class SimulationState:
-    """Saved state of a whole simulation, from Simulation.save(). It can be compared and pickled."""
+    """Saved state of a whole simulation, from Simulation.save(). States can be compared and pickled."""
     @property
     def hash(self) -> str:
-        """Hash of the state, 16 hexadecimal digits: equal states have equal hashes on every machine."""
+        """Hash of the state as 16 hexadecimal digits (in C++ it is the same number as an integer). Equal states have
+        equal hashes on every machine."""
     def __eq__(self, other: object) -> bool: ...
     def __hash__(self) -> int: ...
 
@@ -329,42 +340,55 @@ class Simulation:
         simulation.advance_to(1.0)
         print(simulation.poses[0][:3, 3])
 
-    It reads no clock and starts no thread; the same calls give bit-identical results. Not thread-safe; a copy is a new
-    Simulation that restores a saved state. `hand` is 0 for the first stylus (nodes count styluses from 1), at most the
-    setting `styluses` - 1; another raises InputError, a negative one TypeError. Arrays are copies."""
+    - Hands: `hand` is 0 for the first stylus (nodes count styluses from 1), at most the setting `styluses` - 1. Another
+      number raises InputError, and a negative one TypeError. To hold an object without a button, use the setting
+      `grasp.object`. To begin without a hand, place() objects in the air and call advance_to().
+    - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come
+      in any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
+    - Time: a simulation reads no clock and starts no thread. The same sequence of calls gives bit-identical results. No
+      result is ever NaN.
+    - Copies: arrays are copies. To copy a simulation, restore its saved state in a new one of the same scene and
+      settings. A simulation is not thread-safe."""
     def __init__(self, scene: Scene, settings: Union[SimulationSettings, Dict[str, Any]] = ...) -> None:
-        """Starts a simulation of `scene`. settings: SimulationSettings or the dictionary for it. Raises InputError if a
-        setting is not allowed or does not match the scene."""
+        """Starts a simulation of `scene`. settings: SimulationSettings, or the dictionary for it. Raises InputError if
+        a setting is not allowed or does not match the scene."""
     def push_stylus(self, t: float, pose: npt.ArrayLike, hand: int = 0) -> bool:
-        """Adds a pose of the stylus, shape (4, 4), at time t [s]; its z axis is that of the fork, from the hand to the
-        tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is
-        invalid."""
+        """Adds a pose of the stylus in world, shape (4, 4) [m], at time t [s]. Its z axis points along the fork, from
+        the hand to the tip.
+
+        The hand moves smoothly between poses and rests after the last one. If the gap between two poses is longer than
+        the setting `dropout_after` (0.5 s), the hand stays at the first until the time of the second, and then jumps to
+        it. Returns False, and ignores the pose, if t is not later than the time of the newest one. Raises InputError if
+        the pose is invalid."""
     def push_button(self, t: float, pressed: bool, hand: int = 0) -> None:
         """Presses (True) or releases (False) the grasp button at time t [s]. Raises InputError if t is not finite."""
     def push_next_tool(self, t: float, hand: int = 0) -> None:
         """Selects the next tool at time t [s] or, while something is held, the next tool that can hold it. Raises
         InputError if t is not finite."""
     def push_clutch(self, t: float, on: bool, hand: int = 0) -> None:
-        """Switches the clutch at time t [s]: while it is on, the tool and what it holds stay in place and the hand
-        moves alone; once it is off, they follow its further motion. Raises InputError if t is not finite."""
+        """Switches the clutch at time t [s]. While it is on, the tool and its object stay in place and the hand moves
+        alone. Once it is off, they follow the hand's further motion from there. Raises InputError if t is not
+        finite."""
     def push_external_wrench(self, t: float, wrench: npt.ArrayLike, axes: _Axes = "world", hand: int = 0) -> None:
         """Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
 
-        axes: world, or tip (the axes turn with it). It is in real units: multiplied by the scene's force_scale, it acts
-        until the next one, at most for external_wrench_timeout. Raises InputError if a value is not allowed."""
+        axes: world, or tip (the axes turn with the tip). The wrench is in real units: it is multiplied by the scene's
+        force_scale. It acts until the next wrench, but at most for the setting `external_wrench_timeout`. It replaces
+        pending wrenches of its own or a later time. Raises InputError if a value is not allowed."""
     def push_motion(self, motion: Motion, hand: int = 0) -> int:
-        """Adds the samples and button edges of a recorded motion; returns the number of samples that were added.
+        """Adds the samples and button edges of a recorded motion. Returns the number of samples that were added.
 
-        As push_stylus, it ignores each pose whose time is not later than that of the newest one. Raises InputError if a
-        pose is invalid."""
+        Like push_stylus, it ignores each pose whose time is not later than the time of the newest one. Raises
+        InputError if a pose is invalid."""
     def advance_to(self, t_end: float) -> AdvanceReport:
         """Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
-        If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act.
-        Raises InputError if t_end is not finite."""
+        If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still
+        act. Raises InputError if t_end is not finite."""
     @property
     def time(self) -> float:
-        """Simulated time [s]."""
+        """Simulated time [s]. It begins at the time of the first sample, or at the first t_end of advance_to() if
+        earlier."""
     @property
     def newest_sample_time(self) -> float:
         """Time of the newest sample of any hand, or `time` if there is none [s]."""
@@ -373,10 +397,10 @@ class Simulation:
         """Names of the movable objects, in the order of all arrays."""
     @property
     def poses(self) -> _Floats:
-        """Poses of the objects at their centres of mass; shape (n, 4, 4)."""
+        """Poses of the objects in world, at their centres of mass, positions in m; shape (n, 4, 4)."""
     @property
     def twists(self) -> _Floats:
-        """Velocity [m/s] and angular velocity [rad/s], world; shape (n, 6)."""
+        """Velocity [m/s] of each object's centre of mass and angular velocity [rad/s], world axes; shape (n, 6)."""
     @property
     def held(self) -> _Bools:
         """True for each object that a hand holds; shape (n,)."""
@@ -388,7 +412,8 @@ class Simulation:
         """True for each object that is asleep: at rest, and not simulated until something moves it; shape (n,)."""
     @property
     def contacts(self) -> List[ContactState]:
-        """Current contacts, and those that ended in the last call of `advance_to`: a list of ContactState."""
+        """The present contacts, and the contacts that ended in the last call of `advance_to`: a list of
+        ContactState."""
     def tool(self, hand: int = 0) -> ToolState:
         """Returns the state of the tool in a hand."""
     @property
@@ -396,20 +421,20 @@ class Simulation:
         """Energy stored in all tools [J]."""
     @property
     def energy(self) -> float:
-        """Energy of tools and objects: elastic, kinetic, and potential (zero at z = 0) [J]; without what is stored in
-        compliant materials."""
+        """Energy of tools and objects [J]: elastic, kinetic, and potential (zero at z = 0). It excludes the energy
+        stored in compliant materials."""
     def save(self) -> SimulationState:
-        """Returns the whole state."""
+        """Returns the whole state, from which restore() continues bit-identically."""
     def restore(self, state: SimulationState) -> None:
-        """Restores a state saved by a simulation with the same scene and settings, which then continues
-        bit-identically. Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of
-        the fork differ; other settings are not compared."""
+        """Restores a state that a simulation with the same scene and settings saved. The future is then bit-identical.
+        Raises InputError, and changes nothing, if bodies, contact mode, number of styluses or shape of the fork differ.
+        Other settings are not compared."""
     @property
     def state_hash(self) -> str:
         """Hash of the whole state: 16 hexadecimal digits."""
     def select_tool(self, tool: _Tool, hand: Optional[int] = None) -> ChangeReport:
-        """Changes the tool in a hand, or with None in each, to spring, spring_fork, spring_probe, direct or ray. What
-        it holds stays in hand, except with spring_probe."""
+        """Changes the tool in a hand or, with None, in every hand: spring, spring_fork, spring_probe, direct or ray.
+        The hand keeps its object. The probe cannot hold an object, so a change to spring_probe releases it."""
     def change(
         self,
         *,
@@ -424,24 +449,33 @@ class Simulation:
         damping: Optional[Sequence[Optional[float]]] = None,
         hand: Optional[int] = None,
     ) -> ChangeReport:
-        """Changes the fork of a hand, or with None every fork, and the integration, all or nothing; what is None stays
-        as it is.
+        """Changes the fork of a hand or, with None, of every hand, and the integration of all hands. It changes all or
+        nothing. Values that are None are not changed. A value per DOF is a list of three, for stretch, bend and
+        torsion.
 
-        stiffness: of stretch, bend [N/m] and torsion [N m/rad], each a number or None; damping_ratio: of the same
-        three, 0 to 10; damping_coefficient: of the same three [N s/m, N s/m, N m s/rad]; damping_law: per_dof, modal or
-        coefficients; damping: ratios or coefficients, whichever that law or, without one, the fork's present law uses
-        (three different ratios turn the present law modal into per_dof); dofs: True for each of the three that is on;
-        integrator, of all hands: see integrators(); step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a
-        value is not allowed."""
+        - stiffness: per DOF [N/m, N/m, N m/rad].
+        - damping_ratio: per DOF, 0 to 10; 1 is critical.
+        - damping_coefficient: per DOF [N s/m, N s/m, N m s/rad].
+        - damping_law: per_dof, modal or coefficients.
+        - damping: per DOF, coefficients with the law coefficients and ratios with the others. Three different ratios
+          change the law modal to per_dof, unless damping_law asks for modal.
+        - dofs: per DOF, True if it is on and False if it is rigid.
+        - integrator: a name from integrators().
+        - step: largest step [s].
+        - tolerance: allowed error of the whole run [m]; 0 for fixed steps.
+
+        Raises InputError if a value is not allowed."""
     def calibrate(self, hand: Optional[int] = None) -> ChangeReport:
-        """Fits the tool of a hand, or with None of each, to the object that it holds or, with calibrate: world,
-        restores the scene's stiffness. Raises InputError if nothing is held by a fork or a spring."""
+        """Calibrates the tool of a hand or, with None, of every hand to the object that it holds. With the setting
+        `calibrate: world` it restores the scene's stiffness instead. Raises InputError if no fork or spring holds an
+        object."""
     def release(self, hand: Optional[int] = None) -> bool:
-        """Releases the object of a hand, or with None those of all hands. Returns False if nothing was held."""
+        """Releases the object of a hand or, with None, of every hand. Returns False if nothing was held."""
     def place(self, poses: Mapping[str, npt.ArrayLike]) -> None:
-        """Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest.
+        """Releases all objects and places the named ones at rest. poses: from the name of an object to its pose, shape
+        (4, 4). Unsupported objects then fall.
 
-        Raises InputError, and changes nothing, if a name is not that of a movable object or a pose is invalid."""
+        Raises InputError, and changes nothing, if no movable object has such a name or a pose is invalid."""
     def edit(
         self,
         action: Literal["add", "move", "remove", "mass", "friction"],
@@ -451,29 +485,36 @@ class Simulation:
         mass: Optional[float] = None,
         friction: Optional[float] = None,
     ) -> ChangeReport:
-        """Changes the object `name`, all or nothing; everything else continues from where it is.
+        """Changes the object `name`, all or nothing. Everything else continues as it is.
 
-        action: add (needs urdf; at pose or, without one, on the bench), move (needs pose), remove, mass (to mass [kg];
-        0: massless) or friction (to friction). pose: of its URDF link frame in world, shape (4, 4). Raises InputError
-        if the object or a value is not allowed."""
+        - action add: adds the object of the file `urdf` (a path or package:// URI), at `pose` or, without one, on the
+          bench.
+        - action move: moves the object to `pose`.
+        - action remove: removes the object.
+        - action mass: sets the mass to `mass` [kg]; 0 makes the object massless.
+        - action friction: sets the Coulomb coefficient to `friction`.
+
+        pose: pose of the object's URDF link frame in world, shape (4, 4). Raises InputError if the object or a value is
+        not allowed."""
 
     def reset(self) -> None:
-        """Returns all objects to their initial poses; nothing is held, and all samples are forgotten."""
+        """Releases all objects, returns them to their start poses and forgets all samples."""
 
 def load_scene(path: str, roots: Sequence[str] = ...) -> Scene:
-    """Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.
+    """Reads a scene from a URDF (a path or package:// URI) and from the YAML file of the same name next to it, if there
+    is one.
 
-    roots: folders; if any are given, all files that the scene names must lie below one of them or in a ROS package.
-    Raises InputError if a file cannot be read or is not valid."""
+    roots: folders. If any are given, all files that the scene names must be in one of them or in a ROS package. Raises
+    InputError if a file cannot be read or is not valid."""
 def read_motion(path: str) -> Motion:
-    """Reads a recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml).
+    """Reads a recording (lines of `t x y z qx qy qz qw [button]` in s and m) or a script of waypoints (*.yaml, *.yml).
 
-    Raises InputError, with file and line, if it cannot be read or is not valid."""
+    Raises InputError, with file and line, if the file cannot be read or is not valid."""
 def pose(position: Sequence[float], quaternion: Sequence[float] = ...) -> _Floats:
     """Returns a pose as an array of shape (4, 4).
 
-    position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputError if one has the wrong length or is
-    not finite, or if the quaternion is zero."""
+    position: x, y, z [m]. quaternion: x, y, z, w; it is normalised here. Raises InputError if one of them has the wrong
+    length or is not finite, or if the quaternion is zero."""
 def integrators() -> List[str]:
     """Returns the names that the setting `integrator` accepts."""
 def setting_descriptions() -> List[SettingDescription]:

@@ -85,8 +85,7 @@ class ErrorSpread {
     return squared;
   }
 
-  /// Carries the spread over the step and adds a ball of the amplitude `run.uncertainty`: the smallest ellipsoid, by
-  /// its trace, that contains their sum.
+  /// Carries the spread over the step, and adds `run.uncertainty` in all directions: the ellipsoid of least trace.
   SPRING_WORKBENCH_INLINE void carry(RunError& run) {
     StateMatrix spread = transition_ * StateMatrix(run.spread) * transition_.transpose();
     const double size = std::sqrt(std::max(0.0, mass_.dot(spread.diagonal().template head<n>())) /

@@ -117,8 +117,7 @@ struct StepEnd {
   const rod::StrainVector& q_ddot;
 };
 
-/// Estimates the error at the end of a step of a method of order up to four: from the defect of the quintic through
-/// both ends at a quarter and at three quarters of the step.
+/// Estimates the error of a step of order up to four from the defect of the quintic at a quarter and three quarters.
 StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                        const StepEnd& begin, const StepEnd& end) {
   // The quintic's second derivative by an end that is off by (e, h ė = g): (H'' e + G'' g) / h², H and G its shapes.

@@ -4,8 +4,7 @@
 
 namespace spring_workbench::dynamics {
 
-/// Semi-implicit Euler, as in game engines: q̇ += h q̈(q, q̇), q += h q̇. First order; unstable for ω h > 2, with
-/// damping for less.
+/// Semi-implicit Euler: q̇ += h q̈(q, q̇), q += h q̇. First order; unstable for ω h > 2, with damping for less.
 class SemiImplicitEuler final : public Integrator {
  public:
   int order() const override { return 1; }

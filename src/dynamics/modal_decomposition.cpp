@@ -12,8 +12,7 @@
 namespace spring_workbench::dynamics {
 namespace {
 
-/// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, which are exact for
-/// the springs.
+/// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences (exact for springs).
 rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
   rod::StrainMatrix stiffness(q.size(), q.size());
   const rod::StrainVector rest = 0.0 * q, moved = rod::difference_steps(frozen_difference * body.units(), q);

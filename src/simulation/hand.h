@@ -41,15 +41,13 @@ class Hand {
   void let_go(bool thrown, double now);
   /// Ends the touch of the probe; the touched object keeps its motion, and is touched again if it is still in reach.
   void end_touch(double now);
-  /// Keeps the tool in place while the hand moves alone (`on`), or lets it follow the hand again. A held object keeps
-  /// its twist.
+  /// Keeps the tool in place while the hand moves alone (`on`), or lets it follow again. A held object keeps its twist.
   void set_clutch(bool on, double now);
   /// Returns the object that the tool holds or the probe pushes.
   std::optional<std::size_t> carried() const {
     return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
   }
-  /// Returns the object that this tool alone holds, ready for a step of `h` [s] under a load
-  /// (tools::ToolHold::set_load); null if it is at rest and needs no step.
+  /// Returns the object that this tool alone holds, ready for a step of `h` [s] under a load; null if it is at rest.
   bodies::SteppedBody* begin_step(double now, double h, const Wrench& load_W);
   /// Prepares a step of `h` [s] of a tool that shares its object with other tools or pushes it.
   tools::ToolOnObject begin_shared_step(double now, double h);
@@ -60,8 +58,7 @@ class Hand {
   /// Ends a step, after the object has been stepped.
   void end_step(AdvanceReport& report);
 
-  /// Changes the tool, also while it holds an object: the object continues from its pose and twist, and the new tool
-  /// starts without strain.
+  /// Changes the tool. A held object continues from its pose and twist; the new tool starts without strain.
   void select_tool(tools::Tool tool, double now);
   /// Returns the wrench of the springs on the held object, at its centre, world axes.
   Wrench spring_pull() const { return hold_->spring_pull(); }
@@ -86,8 +83,7 @@ class Hand {
   }
   /// Returns whether the hand holds an object with mass on springs.
   bool springs() const { return dynamic() && !objects_.massless(grasp_.object); }
-  /// Prepares a step in which the tool slips in the hand. Returns the held object as one that no tool holds, under
-  /// `load_W` at its centre, world axes.
+  /// Prepares a step in which the tool slips. Returns the object as an unheld one, under `load_W` at its centre, world.
   bodies::SteppedBody* begin_slip(const Wrench& load_W);
   /// Ends a step of `h` [s] in which the tool slipped, with the stylus at its current pose.
   void end_slip(const Wrench& at_tip_W, double h) {
@@ -120,8 +116,7 @@ class Hand {
   tools::HoldMaker maker() const { return {fork_, settings_.dynamics, scene_.gravity}; }
   void make_hold(double now);
   bool to_world() const { return settings_.grasp.calibrate == tools::Calibration::world; }
-  /// Sets springs and dampers for the held object or for the whole scene, as specified in the settings. Returns false
-  /// if the tool has no springs.
+  /// Sets springs and dampers for the held object or the whole scene, by the settings. Returns false without springs.
   bool calibrate_hold();
   /// Gives the held object this twist, whichever DOFs are off.
   void keep_twist(const Twist& V_WO_W);

@@ -17,8 +17,7 @@ using S = SimulationSettings;
 using validation::between;
 using validation::NumberRule;
 
-/// One key of the settings, with a single rule that checks values from files, parameters, command lines and C++. Refers
-/// to the settings that the table was made for. A check makes no texts.
+/// One key of the settings of one table, with the rule that checks its values, wherever they come from, without texts.
 struct Field {
   struct About {
     const char *key, *type, *unit, *meaning;

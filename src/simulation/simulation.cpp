@@ -341,8 +341,7 @@ Simulation::Impl::Slipping Simulation::Impl::beyond_limits(const Slipping& slipp
   return first;
 }
 
-/// Takes a step. If a tool would exceed its limit, the step is repeated without it, or with its limit wrench
-/// (doc/model.md, "At the limit").
+/// Takes a step, again without a tool that exceeds its limit or with its limit wrench (doc/model.md, "At the limit").
 void Simulation::Impl::step(double end, AdvanceReport& report) {
   const double h = end - now;
   const bool limited = std::isfinite(settings.limit.force) || std::isfinite(settings.limit.moment);

@@ -13,31 +13,31 @@ namespace spring_workbench::bodies {
 
 /// State of one movable object, at its object frame O (centre of mass), in world axes.
 struct BodyState {
-  std::string name;                                  ///< the name of its URDF link
-  RigidTransform X_WO = RigidTransform::Identity();  ///< pose
-  Twist V_WO_W;                                      ///< [m/s, rad/s]
-  bool held = false;                                 ///< whether a hand holds it
-  bool highlighted = false;                          ///< whether a press of the button would grasp it
-  bool in_contact = false;                           ///< whether it touches another body or the bench
-  bool asleep = true;  ///< whether it is at rest, and not simulated until something moves it
+  std::string name;                                  ///< name of the object: the name of its URDF link
+  RigidTransform X_WO = RigidTransform::Identity();  ///< pose of O in world
+  Twist V_WO_W;                                      ///< velocity of O and angular velocity, world axes [m/s, rad/s]
+  bool held = false;                                 ///< whether a hand holds the object
+  bool highlighted = false;                          ///< whether a press of the grasp button would grasp the object
+  bool in_contact = false;                           ///< whether the object touches another body or the bench
+  bool asleep = true;  ///< whether the object is at rest, and not simulated until something moves it
 
-  /// Saves or restores all but the name.
+  /// Saves or restores all fields but the name.
   void exchange(math::StateArchive& state) { state(X_WO, V_WO_W, held, highlighted, in_contact, asleep); }
 };
 
-/// Whether all numbers are the same, bit by bit.
+/// Returns whether all numbers of two states are the same, bit by bit.
 bool same_bits(const BodyState& a, const BodyState& b);
-/// Initial state of a body of a scene: at rest at its start pose, asleep.
+/// Returns the initial state of a body of a scene: at rest at its start pose, asleep.
 BodyState at_start(const scene::Body& body);
 
-/// Records which objects have changed since a given revision, so that a copy updates only these; a query costs as much
-/// as has changed. It is not part of the objects' state: it only saves work.
+/// Record of the objects that have changed since a given revision. It lets a copy of the states be brought up to date
+/// at a cost proportional to the number of changes. It is an optimisation only, not part of the state.
 class Changes {
  public:
-  /// A point in the history of these objects; the default precedes all of it.
+  /// A point in the history of the objects. The default precedes the whole history.
   struct Revision {
     std::shared_ptr<const void> of;  ///< identifies the record
-    std::uint64_t count = 0;         ///< number of changes until then
+    std::uint64_t count = 0;         ///< number of changes up to this point
   };
 
   Changes() { reset(0); }  ///< a record of no objects
@@ -46,16 +46,16 @@ class Changes {
 
   /// Resets the record to `objects` objects, all of which count as changed.
   void reset(std::size_t objects);
-  void note(std::size_t object);                    ///< records that the object has changed
-  Revision now() const { return {self_, count_}; }  ///< the current point
-  /// The objects that have changed since `then`, in ascending order; all if `then` was taken from
-  /// another `Changes`.
+  void note(std::size_t object);                    ///< records that the object with this index has changed
+  Revision now() const { return {self_, count_}; }  ///< the present point
+  /// Returns the indices of the objects that have changed since `then`, in ascending order. If `then` was taken from
+  /// another record, all objects count as changed.
   std::vector<std::size_t> since(const Revision& then) const;
 
-  /// The objects that may differ from their counterparts in `other`, in ascending order: those that have changed, here
-  /// or there, since the last mark_equal_to(other).
+  /// Returns the indices of the objects that may differ from their counterparts in `other`, in ascending order. These
+  /// objects have changed, here or there, since the last mark_equal_to(other).
   std::vector<std::size_t> differing(const Changes& other) const;
-  /// To be called when all objects have been made equal to those of `other`.
+  /// Records that all objects have been made equal to the objects of `other`.
   void mark_equal_to(const Changes& other) {
     own_ = now();
     others_ = other.now();

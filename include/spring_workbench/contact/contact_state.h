@@ -6,22 +6,22 @@
 
 namespace spring_workbench::contact {
 
-/// Phase of a contact.
+/// Phase of a contact with respect to the last call of Simulation::advance_to(), in which it may have started or ended.
 enum class ContactPhase { started, persisting, ended };
 
-/// A contact of an object, in world axes.
+/// One contact point of an object with another body.
 struct ContactState {
-  std::string object;                ///< the object's name
-  std::string other;                 ///< the other body's name; "workbench": the bench
-  Vector3d p_W = Vector3d::Zero();   ///< contact point [m]
-  Vector3d n_W = Vector3d::UnitZ();  ///< unit normal, towards `object`
-  double depth = 0.0;                ///< penetration [m]
+  std::string object;                ///< name of the object
+  std::string other;                 ///< name of the other body; "workbench": the bench
+  Vector3d p_W = Vector3d::Zero();   ///< contact point in world [m]
+  Vector3d n_W = Vector3d::UnitZ();  ///< unit normal of the surface, towards `object`, world axes
+  double depth = 0.0;                ///< depth of penetration along the normal [m]
   double impulse = 0.0;              ///< normal impulse in the last step [N·s]
-  double force = 0.0;  ///< its share of the mean normal force between the two bodies over the last 20 ms, however long
-                       ///< the steps are [N]; once ended, that of its last step
+  /// This point's share of the normal force between the two bodies, as a mean over the last 20 ms, however long the
+  /// steps are [N]. Once the contact has ended, the force is the share in its last step.
+  double force = 0.0;
   double slip_speed = 0.0;                     ///< speed of `object` along the surface [m/s]
-  ContactPhase phase = ContactPhase::started;  ///< started, persisting or ended in the last call of
-                                               ///< Simulation::advance_to()
+  ContactPhase phase = ContactPhase::started;  ///< phase of the contact
 
   /// Saves or restores all fields.
   void exchange(math::StateArchive& state) { state(object, other, p_W, n_W, depth, impulse, force, slip_speed, phase); }

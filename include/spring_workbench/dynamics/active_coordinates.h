@@ -8,16 +8,17 @@
 
 namespace spring_workbench::dynamics {
 
-/// State of the held body in the strain coordinates that are active (rod::ShapeModel has their units).
+/// State of the held body in the active strain coordinates. rod::ShapeModel says their units.
 struct StrainState {
   rod::StrainVector q;      ///< strain coordinates
-  rod::StrainVector q_dot;  ///< their rates, in the unit of each coordinate per second
+  rod::StrainVector q_dot;  ///< rates of the coordinates, each in the unit of its coordinate per second
 
   void exchange(math::StateArchive& state) { state(q, q_dot); }  ///< saves or restores both
 };
 
-/// The strain coordinates of a shape model that take part in an equation of motion. Those of a DOF that is off are
-/// zero; those of a DOF that is being switched off return to zero in a prescribed, critically damped motion.
+/// The active coordinates: the strain coordinates of a shape model that take part in an equation of motion. The
+/// coordinates of a DOF that is off are zero. The coordinates of a DOF that is being switched off return to zero in a
+/// prescribed, critically damped motion (paper, section 3.3).
 class ActiveCoordinates {
  public:
   /// Starts with all `count` coordinates active, 1 … max_strain_coordinates.
@@ -28,20 +29,20 @@ class ActiveCoordinates {
   /// Returns the coordinate of the shape model that is the `i`-th active one.
   int operator[](int i) const { return active_[static_cast<std::size_t>(i)]; }
   bool returning() const { return returning_ > 0; }  ///< whether a DOF that was switched off still returns to zero
-  /// Returns whether the coordinates of a DOF, which are switched together, are off, and none returns to zero.
+  /// Returns whether a DOF is off and no DOF returns to zero. `range`: the coordinates of the DOF.
   bool is_off(const rod::CoordinateRange& range) const {
     return !returning() && mode_[static_cast<std::size_t>(range.begin)] == Mode::off;
   }
 
-  /// Switches the coordinates of a DOF on or off. One that goes off while strained in the state `full` returns to zero
-  /// from time `t` [s] on with the time constant `return_time` [s].
+  /// Switches the coordinates of a DOF on or off. If they are switched off while strained in the state `full`, they
+  /// return to zero from time `t` [s] on with the time constant `return_time` [s].
   void set(const rod::CoordinateRange& range, bool on, double t, double return_time, const StrainState& full);
   /// Ends the returns that have reached zero by time `t` [s]. Returns whether one ended.
   bool drop_finished_returns(double t);
 
-  /// Picks the active coordinates out of all.
+  /// Returns the active coordinates out of all.
   rod::StrainVector gather(const rod::StrainVector& all) const;
-  /// Writes all coordinates, count() of them: the active ones from `active`, zero for the others.
+  /// Writes count() coordinates to `all`: the active ones from `active`, and zero for the others.
   template <typename S>
   void scatter(const S* active, S* all) const {
     for (int c = 0; c < count_; ++c) all[c] = S{};
@@ -49,7 +50,7 @@ class ActiveCoordinates {
   }
   /// Returns all coordinates at time `t` [s], including the prescribed ones.
   StrainState full_state(double t, const StrainState& active) const;
-  /// Sets lane `k` of the prescribed coordinates at time `t` [s] among all; the others stay.
+  /// Sets lane `k` of the coordinates that return to zero, at time `t` [s]. All other coordinates are left as they are.
   template <typename S>
   void prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const {
     for (int c = 0; c < count_; ++c) {

@@ -9,7 +9,7 @@
 
 namespace spring_workbench::dynamics {
 
-/// Pose and velocity of a frame B in a frame A, in the axes of A: at one moment (`S` double) or several.
+/// Pose and velocity of a frame B in a frame A, in the axes of A, at one moment (`S` double) or several (a math::Pack).
 template <typename S>
 struct RelativeMotion {
   math::ThreeByThree<S> R_AB;  ///< rotation: columns are the axes of B in A
@@ -21,68 +21,68 @@ struct RelativeMotion {
 /// Returns pose and velocity of the object O relative to a frame A.
 RelativeMotion<double> relative_motion(const motion::OwnAxesMotion& A, const motion::MotionState& O);
 
-/// Force on the object and its moment about O, in the axes of the frame that the function names.
+/// Force and moment of a coupling on the object, in the axes of the frame that the function names.
 template <typename S>
 struct Pull {
-  math::Three<S> force;   ///< [N]
-  math::Three<S> moment;  ///< about the origin of O [N·m]
+  math::Three<S> force;   ///< force [N]
+  math::Three<S> moment;  ///< moment about the origin of O [N·m]
 };
 
-/// Springs and dampers without mass between a frame A with prescribed motion and the held body, O: the action of a
-/// further tool on it. Axes are those of A.
+/// The action of a further tool on the held body O: springs and dampers without mass between O and a frame A with
+/// prescribed motion. Vectors are in the axes of A.
 class Coupling {
  public:
-  /// Stiffness and damping at the object at its present pose: 6 × 6 [linear; angular], symmetric, ≥ 0.
+  /// Stiffness and damping of the object at its present pose: 6 × 6 [linear; angular], symmetric, ≥ 0.
   struct Springs {
-    Matrix6d stiffness = Matrix6d::Zero();  ///< [N/m, N/rad; N, N·m/rad]
-    Matrix6d damping = Matrix6d::Zero();    ///< in the units of the stiffness times s
+    Matrix6d stiffness = Matrix6d::Zero();  ///< stiffness [N/m, N/rad; N, N·m/rad]
+    Matrix6d damping = Matrix6d::Zero();    ///< damping, in the units of the stiffness times s
     double energy = 0.0;                    ///< elastic energy of the springs [J]
-    double dissipated = 0.0;                ///< power that the dampers take up [W]
+    double dissipated = 0.0;                ///< power that the dampers dissipate [W]
   };
-  /// Identifies the equation of motion that includes this coupling.
+  /// Identifies the law of a coupling's springs and dampers.
   struct Key {
     double since = 0.0;  ///< time of the grasp [s]
-    long version = 0;    ///< number of changes of the law
-    /// Whether two keys identify the same equation.
+    long version = 0;    ///< number of changes of the law since the grasp
+    /// Whether two keys identify the same law.
     bool operator==(const Key& o) const { return since == o.since && version == o.version; }
     void exchange(math::StateArchive& state) { state(since, version); }  ///< saves or restores both
   };
 
   virtual ~Coupling() = default;
-  virtual Key key() const = 0;  ///< changes whenever the law of the springs or dampers does
-  /// Computes the pull on the object at time `t` [s], in the axes of A. Must not allocate memory, as springs().
+  virtual Key key() const = 0;  ///< key of the present law; it changes whenever the law does
+  /// Computes the pull on the object at time `t` [s], in the axes of A. Like springs(), it must not allocate memory.
   virtual void pull(const double& t, const RelativeMotion<double>& A_O, Pull<double>& pull) const = 0;
   /// Computes the pulls at several times, one in each lane.
   virtual void pull(const math::Pack& t, const RelativeMotion<math::Pack>& A_O, Pull<math::Pack>& pull) const = 0;
   /// Returns stiffness, damping and energy at time `t` [s], linearised at this motion of the object, in the axes of A.
   virtual Springs springs(double t, const RelativeMotion<double>& A_O) const = 0;
-  /// Begins a step: forgets the starting points of the searches for the pulls.
+  /// Optional. Called at the start of a step, to forget results of the last one. If not overridden: does nothing.
   virtual void begin_step() const {}
 };
 
-/// Coupling with the motion of its frame A.
+/// A coupling with the motion of its frame A.
 struct Attached {
   const Coupling* coupling = nullptr;          ///< springs and dampers; never null when attached
   const motion::FrameMotion* frame = nullptr;  ///< motion of A; never null when attached
-  /// Handle that `frame` was given with; null: the current one, which is passed to find_relative_motions(). If set, A
-  /// is carried along: its pose relative to the current handle equals that of `frame` relative to this one.
+  /// Motion of the handle relative to which `frame` is defined. If set, A keeps its pose relative to the handle: when
+  /// the handle is displaced, A is displaced with it. If null, `frame` is used as it is.
   const motion::FrameMotion* handle = nullptr;
 };
 
-/// Couplings of a held body. Keeps pointers to the couplings and motions that are attached.
+/// The couplings of a held body. It keeps pointers to couplings and motions, which must outlive their attachment.
 class Couplings {
  public:
-  /// Motion of the handle H relative to the frame A of each coupling. The first few are not on the heap.
+  /// Motion of the handle H relative to the frame A of each coupling. Up to three couplings need no heap.
   template <typename S>
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): only the first `count` elements are used, in each step
   struct RelativeMotions {
-    /// Largest distance of the frames from the origin of the world, which scales their rounding errors [m].
+    /// Largest distance of the frames from the origin of the world [m]. Rounding errors are in proportion to it.
     double distance = 0.0;
     std::size_t count = 0;                   ///< number of frames
-    std::array<RelativeMotion<S>, 3> first;  ///< those of the first three
-    std::vector<RelativeMotion<S>> more;     ///< those of the others
+    std::array<RelativeMotion<S>, 3> first;  ///< motions in the first three frames
+    std::vector<RelativeMotion<S>> more;     ///< motions in all further frames
 
-    /// Makes room for so many frames.
+    /// Makes room for this number of frames.
     void resize(std::size_t frames) {
       count = frames;
       more.resize(frames - std::min(frames, first.size()));
@@ -93,12 +93,11 @@ class Couplings {
     const RelativeMotion<S>& in_frame(std::size_t i) const { return const_cast<RelativeMotions*>(this)->in_frame(i); }
   };
 
-  /// Attaches these couplings in place of the present ones. Returns whether they, or their laws, differ from those
-  /// before.
+  /// Attaches these couplings in place of the present ones. Returns whether the couplings or their laws have changed.
   bool attach(const std::vector<Attached>& couplings);
-  /// Detaches all but the first `kept` until attach(). Their keys stay: attaching the same ones again is no change.
+  /// Detaches all but the first `kept` couplings until the next attach(). Attaching them again is no change.
   void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }
-  bool empty() const { return attached_.empty(); }  ///< whether none is attached
+  bool empty() const { return attached_.empty(); }  ///< whether no coupling is attached
 
   /// Computes the motions of the handle relative to the frames at time `t` [s].
   void find_relative_motions(const motion::FrameMotion& handle, double t, RelativeMotions<double>& A_H) const;
@@ -110,13 +109,13 @@ class Couplings {
   /// Returns the sum of all pulls, in the axes of H, for the motion of the object in H.
   template <typename S>
   Pull<S> pull(const S& t, const RelativeMotions<S>& A_H, const RelativeMotion<S>& H_O) const;
-  /// The sum of all couplings.
+  /// Sum over all couplings.
   struct Reading {
-    Coupling::Springs springs;  ///< in the axes of H
-    Wrench pull_W;              ///< on the object at its centre, world axes
-    double power = 0.0;         ///< what the motions of the frames put in, less what the dampers dissipate [W]
+    Coupling::Springs springs;  ///< stiffness, damping and energy, axes of H
+    Wrench pull_W;              ///< wrench on the object at its centre, world axes [N, N·m]
+    double power = 0.0;         ///< power put in by the motions of the frames, less the dissipated power [W]
   };
-  /// Reads the couplings at time `t` [s]. `W_H`: the handle in the world, with its velocities in its own axes.
+  /// Returns the sum over all couplings at time `t` [s]. `W_H`: the handle in world, with velocities in its own axes.
   Reading read(double t, const RelativeMotions<double>& A_H, const RelativeMotion<double>& H_O,
                const RelativeMotion<double>& W_H) const;
 

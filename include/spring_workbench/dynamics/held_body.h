@@ -13,16 +13,16 @@
 
 namespace spring_workbench::dynamics {
 
-/// Rigid body at the tip: object frame O (centre of mass) and tip frame E.
+/// Rigid body that the tip E holds; its frame O is at the centre of mass.
 struct BodyInertia {
-  double mass = 1.0;                          ///< [kg], > 0
-  Matrix3d inertia_O = Matrix3d::Identity();  ///< about the centre of mass, axes of O [kg·m²], positive definite
-  RigidTransform X_OE = RigidTransform::Identity();  ///< the grasp G
+  double mass = 1.0;                                 ///< mass [kg], > 0
+  Matrix3d inertia_O = Matrix3d::Identity();         ///< inertia about O, axes of O [kg·m²], positive definite
+  RigidTransform X_OE = RigidTransform::Identity();  ///< pose of the tip in the body: the grasp G
 };
 
 /// Motion of the handle frame H at one moment.
 struct HandleForcing {
-  double t = 0.0;                                    ///< [s]
+  double t = 0.0;                                    ///< time [s]
   RigidTransform X_WH = RigidTransform::Identity();  ///< pose of the handle in world
   Vector3d v_WH_W = Vector3d::Zero();                ///< velocity of the origin, world axes [m/s]
   Vector3d w_WH_H = Vector3d::Zero();                ///< angular velocity, axes of H [rad/s]
@@ -32,58 +32,57 @@ struct HandleForcing {
   Couplings::RelativeMotions<double> relative_motions;  ///< motions of H relative to the frames of the couplings
 };
 
-/// Motion of the handle without its pose, at one moment (`S` double) or several.
+/// Motion of the handle without its pose, at one moment (`S` double) or several (a math::Pack).
 template <typename S>
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): HeldBody::forcing sets all of it, in each step
 struct ForcingOf {
-  S t;                                             ///< [s]
+  S t;                                             ///< time [s]
   motion::FrameForcing<S> of_H;                    ///< velocities and accelerations of the handle, in its own axes
   Couplings::RelativeMotions<S> relative_motions;  ///< motions of H relative to the frames of the couplings
 };
 
-/// Motion of the handle at several moments, for integrators.
+/// Motion of the handle at several moments, for integrators that use packs.
 struct HandleForcings : ForcingOf<math::Pack> {
   HandleForcing at(int i) const;  ///< the motion in lane `i`
 };
 
 /// Energy of held body and springs at several moments, with the power that should change it.
 struct EnergyBalance {
-  /// The energy in the frame of the handle, which is conserved if the handle is at rest [J]: elastic, kinetic and
-  /// potential, less the products of the body's momenta about the handle's origin with the handle's velocities.
+  /// Energy in the frame of the handle [J], which is conserved if the handle is at rest: elastic, kinetic and potential
+  /// energy, less the products of the body's momenta about the handle's origin with the handle's velocities.
   math::Pack energy;
   math::Pack power;  ///< power of the handle's acceleration, of contact and of the dampers in that frame [W]
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
-/// `M(q) q̈ = −K q − D q̇ − (inertial, gravity and contact forces)`. A DOF that is off has no coordinates; neither has
-/// one that is being switched off, which follows a prescribed motion to zero.
+/// `M(q) q̈ = −K q − D q̇ − (inertial, gravity and contact forces)`. A DOF that is off has no active coordinates. A DOF
+/// that is being switched off has none either: it follows a prescribed motion to zero. Not thread-safe.
 class HeldBody {
  public:
-  /// `gravity` [m/s²] along −z of world.
+  /// Puts `body` on an unstrained rod of `shape`. `gravity` [m/s²] acts along −z of world.
   HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInertia& body, double gravity);
 
   const rod::ShapeModel& shape() const { return *shape_; }                               ///< the rod
   const std::shared_ptr<const rod::ShapeModel>& shared_shape() const { return shape_; }  ///< the rod, to be shared
   const BodyInertia& body() const { return body_; }                                      ///< the body at its tip
-  double gravity() const { return gravity_; }                                            ///< [m/s²]
-  /// Increases with every change of the equations: what an integrator has derived from them is valid for one version
-  /// only.
+  double gravity() const { return gravity_; }  ///< gravity along −z of world [m/s²]
+  /// Increases with every change of the equations. Results derived from the equations are valid for one version only.
   long version() const { return version_; }
-  /// Increases with every change of the load, which does not change the linear part of the equations.
+  /// Increases with every change of the load. A load does not change the linear part of the equations.
   long load_version() const { return load_version_; }
 
-  /// Sets stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per DOF.
+  /// Sets stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio ≥ 0 (Kelvin–Voigt; doc/model.md) per DOF.
   void set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio);
-  /// Sets stiffness and damping coefficients per DOF, the latter in the unit of the stiffness times s: `D = (c / k) K`.
+  /// Sets stiffness k [N/m, N/m, N·m/rad] and damping coefficients c [N·s/m, N·s/m, N·m·s/rad]: `D = (c / k) K`.
   void set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping);
   /// Sets the same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, with
   /// the mass matrix M of the unstrained fork. D is recomputed by set_dofs().
   void set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio);
   void set_springs(const rod::ForkSettings& fork);  ///< sets stiffness, damping values and damping law of `fork`
   double axial_inertia() const;  ///< the body's moment of inertia about the fork's axis, through the tip [kg·m²]
-  const rod::PerDof& dof_stiffness() const { return stiffness_; }  ///< of the DOFs [N/m, N/m, N·m/rad]
-  /// Damping coefficients of the DOFs, in the unit of the stiffness times s. With modal damping, those that would give
-  /// each DOF this ratio by itself.
+  const rod::PerDof& dof_stiffness() const { return stiffness_; }  ///< stiffness per DOF [N/m, N/m, N·m/rad]
+  /// Damping coefficients per DOF [N·s/m, N·s/m, N·m·s/rad]. With modal damping, these are the coefficients that would
+  /// give each DOF alone the ratio of the modes.
   const rod::PerDof& dof_damping() const { return damping_; }
 
   /// Switches DOFs on and off. A DOF that is switched off while strained returns to zero, critically damped, from time
@@ -99,28 +98,27 @@ class HeldBody {
   const Wrench& load() const { return load_W_; }  ///< the load that was set
   bool loaded() const { return loaded_; }         ///< whether the load is not zero
 
-  /// Checks whether the object meets nothing on its straight path between two poses. For the step that follows, and for
-  /// methods that aim for a pose (`paper`); not part of the state. Empty: nothing can be in the path.
+  /// Returns true if the object can move in a straight line between two poses without touching anything. Used only by
+  /// `paper`, in the next step. An empty function means that nothing is in the way. Not saved with the state.
   using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
   void set_path_check(PathCheck check) { path_check_ = std::move(check); }  ///< sets the check for the next step
   const PathCheck& path_check() const { return path_check_; }               ///< the check for the next step
 
-  /// Attaches further tools that pull on the body from now on, along the motion of the handle that integrators are
-  /// given.
+  /// Attaches further tools that pull on the body from now on; see Couplings::attach.
   void attach(const std::vector<Attached>& couplings);
   /// Detaches couplings; see Couplings::detach.
   void detach(std::size_t kept) { couplings_.detach(kept); }
   bool coupled() const { return !couplings_.empty(); }  ///< whether further tools are attached
-  /// Returns the sum of the couplings for a state of the body.
+  /// Returns the sum over all couplings for a state of the body.
   Couplings::Reading read_couplings(const HandleForcing& handle, const StrainState& state) const;
 
   int size() const { return coordinates_.size(); }                                  ///< number of active coordinates
   const ActiveCoordinates& coordinates() const { return coordinates_; }             ///< which coordinates are active
-  StrainState zero_state() const;                                                   ///< no strain, at rest
-  rod::StrainVector units() const { return coordinates_.gather(shape_->units()); }  ///< of the active coordinates
-  rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
-  rod::StrainMatrix damping() const;    ///< D, active coordinates
-  /// K and D including the springs and dampers of the couplings.
+  StrainState zero_state() const;                                                   ///< state without strain, at rest
+  rod::StrainVector units() const { return coordinates_.gather(shape_->units()); }  ///< scales of active coordinates
+  rod::StrainVector stiffness() const;  ///< diagonal of the stiffness matrix K, active coordinates
+  rod::StrainMatrix damping() const;    ///< damping matrix D, active coordinates
+  /// K and D with the springs and dampers of the couplings.
   struct Springs {
     rod::StrainMatrix K;  ///< stiffness, active coordinates
     rod::StrainMatrix D;  ///< damping, active coordinates
@@ -128,44 +126,43 @@ class HeldBody {
   /// Returns K and D, with the couplings linearised at the strain `q`.
   Springs springs(const HandleForcing& handle, const rod::StrainVector& q) const;
 
-  /// Returns the motion of the handle at time `t` [s], and relative to the frames of the couplings.
+  /// Returns the motion of the handle at time `t` [s], in world and relative to the frames of the couplings.
   HandleForcing forcing(const motion::FrameMotion& handle, double t) const;
   /// Returns the motions of the handle at several times, one in each lane.
   HandleForcings forcing(const motion::FrameMotion& handle, const math::Pack& t) const;
-  /// Returns q̈ of the active coordinates.
+  /// Returns the acceleration q̈ of the active coordinates.
   rod::StrainVector acceleration(const HandleForcing& handle, const rod::StrainVector& q,
                                  const rod::StrainVector& q_dot) const;
   /// Returns q̈ for `n` = size(), 1 … 6, known at compile time: for integrators.
   template <int n>
   Eigen::Matrix<double, n, 1> acceleration(const HandleForcing& handle, const Eigen::Matrix<double, n, 1>& q,
                                            const Eigen::Matrix<double, n, 1>& q_dot) const;
-  /// Computes q̈ at several moments: `n` packs each.
+  /// Computes q̈ at several moments. Each array has `n` packs.
   template <int n>
   void acceleration(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot,
                     math::Pack* q_ddot) const;
-  /// Returns energy and power at several moments: size() packs each. Without the energy of a DOF that returns to zero
-  /// strain.
+  /// Returns energy and power at several moments, for arrays of size() packs. A DOF that returns to zero is left out.
   EnergyBalance energy_balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot) const;
   rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;  ///< M(q) of the active coordinates
   bool rechart(StrainState& state) const;  ///< ShapeModel::rechart, active coordinates; not while a DOF returns
-  /// Active state at time `t` in all coordinates of the shape model.
+  /// Returns an active state at time `t` [s] in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const { return coordinates_.full_state(t, state); }
 
-  /// Pose, velocity and, if `q_ddot` is given, acceleration of the object frame O, in world axes.
+  /// Returns pose, velocity and, if `q_ddot` is given, acceleration of the object frame O, in world axes.
   motion::MotionState object(const HandleForcing& handle, const StrainState& state,
                              const rod::StrainVector* q_ddot = nullptr) const;
-  /// Jacobian of the object's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
+  /// Returns the Jacobian of O's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> object_jacobian(
       double t, const rod::StrainVector& q) const;
-  /// The strain rate that is closest, in kinetic energy, to the object's twist (world axes) at the strain `q`.
+  /// Returns the strain rate at the strain `q` that is closest, in kinetic energy, to a twist of O (world axes).
   rod::StrainVector project_twist(const HandleForcing& handle, const rod::StrainVector& q, const Twist& V_WO_W) const;
 
-  double elastic_energy(double t, const StrainState& state) const;              ///< [J]
+  double elastic_energy(double t, const StrainState& state) const;              ///< elastic energy U of the rod [J]
   rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;  ///< ∂U/∂q of the active coordinates
-  double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;       ///< [J]
+  double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;       ///< kinetic energy of the body [J]
 
-  /// Exchanges springs, DOFs, load and versions; shape, body and gravity must be the same. What an integrator has
-  /// derived from the equations is valid only for these versions, so its history is saved together with them.
+  /// Saves or restores springs, DOFs, load and versions; shape, body and gravity must be the same. The history of an
+  /// integrator is valid only for these versions, so it is saved together with them.
   void exchange(math::StateArchive& state);
 
  private:

@@ -5,19 +5,20 @@
 
 namespace spring_workbench::dynamics {
 
-/// How the held body's state is carried over a step (doc/model.md, "Integrators").
+/// Methods of integration for the motion of a held body (doc/model.md, "Integrators").
 enum class IntegratorKind { exponential, rosenbrock, implicit_euler, paper, semi_implicit_euler, rk4 };
-const std::vector<std::string>& names_of(IntegratorKind);  ///< their words in settings, also of registered ones
+/// The words for the methods in settings, built in or registered.
+const std::vector<std::string>& names_of(IntegratorKind);
 
-/// Inertia of the held object: its own, or the paper's I = r² m (section 3.1).
+/// Inertia of the held object: its own tensor, or I = r² m as in the paper (section 3.1).
 enum class Inertia { exact, point_mass };
-const std::vector<std::string>& names_of(Inertia);  ///< their words in settings
+const std::vector<std::string>& names_of(Inertia);  ///< words for the inertias in settings
 
 /// Integrator and steps of the held objects.
 struct DynamicsSettings {
   IntegratorKind integrator = IntegratorKind::exponential;  ///< key `integrator`
   double step = 0.02;        ///< key `step` [s], 1e-6 … 1: the largest step; a step also ends at every sample
-  double tolerance = 0.0;    ///< key `tolerance` [m], 0 … 0.1: of the run's error, not of each step's; 0: fixed steps
+  double tolerance = 0.0;    ///< key `tolerance` [m], 0 … 0.1: allowed error of the whole run; 0: fixed steps
   bool error_bound = false;  ///< key `error_bound`: whether to estimate the run's error from above (doc/model.md)
   Inertia inertia = Inertia::exact;  ///< key `inertia`
 };

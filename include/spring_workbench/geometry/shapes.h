@@ -15,21 +15,21 @@ struct Box {
 };
 /// A sphere, centred at the origin.
 struct Sphere {
-  double radius;  ///< [m]
+  double radius;  ///< radius [m]
 };
 /// A cylinder along z, centred at the origin.
 struct Cylinder {
-  double radius;  ///< [m]
-  double length;  ///< [m]
+  double radius;  ///< radius [m]
+  double length;  ///< length along z [m]
 };
-/// Triangles in the shape's frame; shared and immutable after loading.
+/// A mesh of triangles in the shape's frame. It is shared, and not changed after loading.
 struct TriangleMesh {
-  std::vector<Vector3d> vertices;          ///< [m]
-  std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise from outside
-  std::string uri;                         ///< file that it was loaded from, for markers
-  Vector3d scale = Vector3d::Ones();       ///< already applied to `vertices`
+  std::vector<Vector3d> vertices;          ///< corners of the triangles [m]
+  std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise as seen from outside
+  std::string uri;                         ///< file from which the mesh was loaded, for display
+  Vector3d scale = Vector3d::Ones();       ///< scale of the file, already applied to `vertices`
 
-  /// Corner `k` of a triangle.
+  /// Returns corner `k`, 0 … 2, of a triangle [m].
   const Vector3d& corner(const Eigen::Vector3i& triangle, int k) const {
     return vertices[static_cast<std::size_t>(triangle[k])];
   }
@@ -42,8 +42,8 @@ struct Shape {
   Geometry geometry;                                            ///< box, sphere, cylinder or mesh
   RigidTransform X_OS = RigidTransform::Identity();             ///< pose of the shape's frame S in O
   Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1.0);  ///< r, g, b, alpha in 0 … 1
-  bool color_given =
-      false;  ///< whether the scene sets `color`; otherwise the colours and textures of a mesh file take precedence
+  /// Whether the scene sets `color`. If it does not, the colours and textures of a mesh file take precedence.
+  bool color_given = false;
 };
 
 }  // namespace spring_workbench::geometry

@@ -14,10 +14,10 @@
 
 namespace spring_workbench::hand_input {
 
-/// Input that a feed gave to its simulation. The same inputs in the same order, each after the simulation has reached
-/// the same time, give a bit-identical future.
+/// Input that a feed passed on to its simulation, for a record of a run. The same inputs in the same order, each given
+/// at the same simulated time (`committed`), lead to a bit-identical future.
 struct AcceptedInput {
-  /// What kind of input it is.
+  /// Kind of an input.
   enum class Kind {
     pose,             ///< pose of the stylus at time `t`, after filtering
     button_down,      ///< the grasp button went down at time `t`
@@ -30,39 +30,50 @@ struct AcceptedInput {
     external_wrench,  ///< a machine's force sensor measured `wrench` at time `t`
   };
   static Kind kind_of(motion::ButtonEdge edge);  ///< the kind that stands for a button edge
-  /// Returns the edge of a button that `kind` stands for; none if it stands for something else.
+  /// Returns the button edge that `kind` stands for, or nothing if it stands for another input.
   static std::optional<motion::ButtonEdge> edge_of(Kind kind);
 
-  Kind kind = Kind::rest;                                       ///< what kind of input it is
-  std::size_t hand = 0;                                         ///< the hand, from 0
-  double t = 0.0;                                               ///< time of the input [s]
-  RigidTransform X_WS = RigidTransform::Identity();             ///< pose of the stylus in world, for `pose`
-  motion::ExternalWrench wrench;                                ///< for `external_wrench`, measured at time `t`
-  double committed = -std::numeric_limits<double>::infinity();  ///< simulated time at which the input was given [s];
-                                                                ///< −infinity before the first advance
+  Kind kind = Kind::rest;                            ///< kind of the input
+  std::size_t hand = 0;                              ///< number of the hand, from 0
+  double t = 0.0;                                    ///< time of the input [s]
+  RigidTransform X_WS = RigidTransform::Identity();  ///< for `pose`: pose of the stylus in world
+  motion::ExternalWrench wrench;                     ///< for `external_wrench`: the wrench, measured at time `t`
+  /// Simulated time at which the input was given [s]; −infinity before the first advance.
+  double committed = -std::numeric_limits<double>::infinity();
 };
 
-/// Input of all hands to a simulation, live and offline. The samples of each hand pass the outlier gate, smoothing and
-/// re-acquisition. For callers with a clock, the hand's playout clock determines up to which time its input is
-/// complete. Hands are numbered as in Simulation; times are simulated times [s]. There is no thread, log or ROS: the
-/// same calls give bit-identical results.
+/// Filter between a tracker and a simulation, for callers with raw samples, which have noise, outliers and dropouts.
+/// Callers with clean poses do not need it: they call Simulation::push_stylus(). A live loop, with the pose X_WP of the
+/// tracker in world and one steady clock:
+///
+///     hand_input::Feed feed(simulation, {});
+///     while (running()) {
+///       const hand_input::LocalTime now{seconds(), seconds()};
+///       while (const std::optional<hand_input::RawSample> raw = receive()) feed.push_stylus(*raw, X_WP, now);
+///       while (const std::optional<double> t = feed.next_stop(now)) feed.advance_to(*t);
+///     }
+///
+/// The samples of each hand pass an outlier gate (SampleGate), smoothing, and re-acquisition (Reacquisition). In a live
+/// loop next_stop() decides up to which time the input is complete, so that the result does not depend on when messages
+/// arrive. Offline, push all samples and then call advance_to() for any time. Hands are numbered as in Simulation.
+/// Times are those of the hand's clock [s]. A feed has no thread; the same calls give bit-identical results.
 class Feed {
  public:
-  /// Whether the hands' motion is predicted, which costs time for every sample.
+  /// Whether the motion of the hands is predicted for predict(). Prediction costs time for every sample.
   enum class Prediction { off, on };
-  /// Feeds `simulation`, which must outlive it.
+  /// Feeds `simulation`, which must outlive the feed.
   Feed(simulation::Simulation& simulation, const InputSettings& settings, Prediction prediction = Prediction::off);
   ~Feed();
 
-  /// Adds a sample as received, in a tracker's frame P whose pose in the world is `X_WP`. Returns the result of the
-  /// gate; a rejected sample is dropped.
+  /// Adds a sample as received, in a tracker's frame P whose pose in world is `X_WP`. `arrival`: the local time now.
+  /// Returns the result of the gate. A rejected sample is dropped.
   GateResult push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
                          std::size_t hand = 0);
-  /// Reports the arrival of a sample that is not used, so that the hand does not count as silent.
+  /// Reports the arrival of a sample that the caller does not use, so that the hand does not count as silent.
   void report_arrival(const LocalTime& arrival, std::size_t hand);
-  /// Adds a pose of the stylus in the world, from a motion that needs no clock. The pose is passed on
+  /// Adds a pose of the stylus in world, from a recording or another source that needs no clock. The pose is passed on
   /// bit-identically if smoothing and dead band are off and the hand was not lost. `quaternion_norm`: length of the
-  /// quaternion as it was received.
+  /// quaternion as it was received. Returns the result of the gate.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0, double quaternion_norm = 1.0);
   /// Adds a button edge at time `t` [s]; see Simulation::push_edge().
   void push_edge(double t, motion::ButtonEdge edge, std::size_t hand = 0);
@@ -70,39 +81,41 @@ class Feed {
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_edge(t, pressed ? motion::ButtonEdge::grasp : motion::ButtonEdge::release, hand);
   }
-  /// Adds what a machine's force sensor measured; see Simulation::push_external_wrench(). Time never waits for such a
-  /// sample.
+  /// Adds a measurement of a machine's force sensor; see Simulation::push_external_wrench(). Unlike poses, wrenches are
+  /// not waited for: the simulation may pass their time before they arrive.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
-  /// Reports that the buttons of a hand are known up to `t`, whether or not one of them changed.
+  /// Reports that the buttons of a hand are known up to time `t` [s], whether or not one of them changed.
   void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
 
-  /// Returns whether a sample of any hand was pushed since the start.
+  /// Returns whether a sample of any hand was accepted since the start.
   bool has_sample() const { return has_sample_; }
-  /// Returns the time to which advance_to should commit the simulation next: the next sample or button edge up to which
-  /// the input of every hand that is not silent is complete, or a whole step further if all hands are silent. None
-  /// while there is no such time.
+  /// Returns the time [s] to which to call advance_to() next, or nothing if more input has to arrive first. This is the
+  /// time of the next sample or button edge, if the input of every hand that is not silent is complete up to it. If all
+  /// hands are silent, it is a number of whole steps ahead.
   std::optional<double> next_stop(const LocalTime& now) const;
-  /// Returns the simulated time reached since the start [s]; −infinity before the first advance.
+  /// Returns the simulated time that was reached [s]; −infinity before the first advance.
   double committed() const;
-  /// Advances the simulation to `t`. A hand that is lost before `t` releases its object at the time of the loss.
+  /// Advances the simulation to time `t` [s]. With `on_loss: release`, a hand that is lost before `t` releases its
+  /// object at the time of the loss.
   simulation::AdvanceReport advance_to(double t);
-  /// Gives each hand of `copy`, a copy of the simulation, the samples by which it follows its predicted motion up to
-  /// time `t`; they also determine its velocity at the newest true sample. None without Prediction::on.
+  /// Extends the motion of each hand of `copy`, a copy of the simulation, to time `t` [s] by predicted samples, for
+  /// display. Does nothing unless prediction is on. Note that this also changes the velocity at the newest real sample
+  /// of `copy`.
   void predict(double t, simulation::Simulation& copy) const;
-  /// Returns the time since the newest sample of any hand arrived [s].
+  /// Returns the time since the newest sample of any hand arrived [s]; 0 before the first one.
   double time_since_arrival(const LocalTime& now) const;
-  /// Sets the function that is called with every input of the simulation; empty: nothing is recorded.
+  /// Sets a function that is called with every input that the simulation is given. An empty function records nothing.
   void record(std::function<void(const AcceptedInput&)> record) { record_ = std::move(record); }
 
-  /// Forgets the hands' samples after the simulation was reset or changed: the next sample counts as the first. Gates
-  /// and counts are kept.
+  /// Forgets the samples of all hands, after the simulation was reset or changed. The next sample counts as the first.
+  /// Gates and counts are kept.
   void restart();
-  /// Forgets the samples of one hand in its gate, after a time jump; keeps the counts.
+  /// Forgets the samples of one hand in its gate, after a jump of time. Counts are kept.
   void restart_gate(std::size_t hand);
 
   const GateCounts& gate_counts(std::size_t hand) const;                    ///< results of a hand's outlier gate
   const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const;  ///< losses and re-acquisitions of a hand
-  /// Returns how often the tracker of a hand was moved in the world (`X_WP` changed), after which the hand is
+  /// Returns how often the tracker of a hand was moved in world, that is, `X_WP` changed. After each move the hand is
   /// re-acquired.
   std::size_t tracker_moves(std::size_t hand) const;
 

@@ -2,11 +2,11 @@
 
 namespace spring_workbench::hand_input {
 
-/// The current moment on two clocks [s].
+/// The current moment on two clocks of the caller [s]. Feed uses them to tell a silent hand from a late message.
 struct LocalTime {
-  double loop = 0.0;  ///< clock of the loop: the steady clock or, under use_sim_time, simulated time
-  /// Steady-clock time during which the process ran: each reading advances it by at most 10 ms, so that a process that
-  /// was stopped or starved does not take messages that were queued meanwhile for lost ones.
+  double loop = 0.0;  ///< clock of the caller's loop: a steady clock or, under use_sim_time, simulated time
+  /// Time on a steady clock during which the process ran. Each reading of the clock advances it by at most 10 ms. A
+  /// process that was stopped therefore does not count a hand as silent whose messages were queued meanwhile.
   double attended = 0.0;
 };
 

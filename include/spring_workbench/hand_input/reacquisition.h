@@ -16,24 +16,25 @@ struct ReacquisitionCounts {
   std::size_t losses = 0;          ///< times `loss_timeout` passed without a sample
 };
 
-/// Computes the pose of the hand that the simulation follows: that of the tracked hand or, if the hand was lost and
-/// found elsewhere, a pose that starts at rest where the hand was last and catches up.
+/// Computes the pose of the hand that the simulation follows. This is the tracked pose or, if the hand was lost and
+/// found elsewhere, a pose that starts at rest where the hand was last and catches up. Feed has one for each hand.
 ///
-/// From sample to sample the followed pose moves by the step of the tracked hand and, in addition, towards it: at
-/// `reacquisition_speed` and `reacquisition_turn_rate`, and at the end with a time constant of 0.1 s. Both are ramped
-/// up smoothly over 0.2 s. The followed hand is therefore faster than the tracked one by at most these two speeds.
+/// From sample to sample the followed pose moves by the step of the tracked hand. In addition it moves towards the
+/// tracked pose, at `reacquisition_speed` and `reacquisition_turn_rate`, and at the end with a time constant of 0.1 s.
+/// Both speeds are ramped up smoothly over 0.2 s, and the followed hand exceeds the tracked one by no more.
 class Reacquisition {
  public:
   explicit Reacquisition(const InputSettings& settings) : settings_(settings) {}  ///< copies the settings
 
-  /// Returns the samples to follow after this one, in order: none if it is not later than `simulated_until` [s] (it is
-  /// late); two if the hand was held beyond the last one. `relocation`: see GateResult.
+  /// Returns the samples to follow, in order, after this tracked one (pose in world). It returns no sample if this one
+  /// is late, that is, not later than `simulated_until` [s]. It returns two if the hand was held at rest beyond the
+  /// last sample. `relocation`: see GateResult.
   std::vector<motion::PoseSample> follow(const motion::PoseSample& sample, bool relocation, double simulated_until);
   /// Returns the next time up to `until` [s], if any, at which the held object is released because the hand was lost.
-  /// Each is returned once, and none if `on_loss` is freeze.
+  /// Each time is returned once. If `on_loss` is freeze, there is none.
   std::optional<double> take_release(double until);
   const ReacquisitionCounts& counts() const { return counts_; }  ///< counts since the start
-  /// Forgets the samples of the hand; keeps the counts.
+  /// Forgets the samples of the hand. Counts are kept.
   void restart();
 
  private:

@@ -11,32 +11,32 @@ namespace spring_workbench::hand_input {
 
 /// A sample as received, before any check.
 struct RawSample {
-  double t = 0.0;                           ///< stamp [s]
+  double t = 0.0;                           ///< time stamp [s]
   Vector3d p = Vector3d::Zero();            ///< origin of the tracked frame, in the tracker's frame [m]
   Quaterniond q = Quaterniond::Identity();  ///< rotation of the tracked frame; not necessarily of length 1
 };
 
 /// Result of the gate for a sample.
 enum class GateResult {
-  accepted,        ///< continues from the sample before
+  accepted,        ///< accepted: it continues the motion of the sample before
   relocation,      ///< accepted after a jump or a dropout, or as the first sample
-  not_finite,      ///< a number is NaN or infinite
-  bad_quaternion,  ///< far from unit length
-  too_far,         ///< beyond `max_distance` from the origin of the tracker's frame
-  not_later,       ///< repeated or backward stamp
-  too_close,       ///< stamp right after the last one, as in a burst, too close for a meaningful velocity
-  too_fast,        ///< beyond `max_speed` from the last accepted sample
-  turns_too_fast,  ///< beyond `max_turn_rate` from the last accepted sample
-  out_of_view,     ///< a jump to the identity, which a tracker sends for a sensor that it does not see
+  not_finite,      ///< rejected: a number is NaN or infinite
+  bad_quaternion,  ///< rejected: the quaternion is far from unit length
+  too_far,         ///< rejected: farther than `max_distance` from the origin of the tracker's frame
+  not_later,       ///< rejected: the stamp is not later than the last one
+  too_close,       ///< rejected: the stamp is too close to the last one for a meaningful velocity, as in a burst
+  too_fast,        ///< rejected: faster than `max_speed` since the last accepted sample
+  turns_too_fast,  ///< rejected: turned faster than `max_turn_rate` since the last accepted sample
+  out_of_view,     ///< rejected: a jump to the identity, which a tracker sends for a sensor that it does not see
 };
-/// Returns whether a sample with this result may be used.
+/// Returns whether a sample with this result may be used: accepted or relocation.
 inline bool usable(GateResult result) { return result == GateResult::accepted || result == GateResult::relocation; }
 /// Returns the result in words, as in /diagnostics.
 std::string to_string(GateResult result);
-/// Returns what is wrong with a rejected sample: field, rule and value.
+/// Returns a message about a rejected sample, with field, rule and value.
 std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings);
 
-/// Checks whether a sample is a valid pose within range, regardless of earlier samples: accepted, not_finite,
+/// Checks whether a sample is a valid pose within range, regardless of earlier samples. Returns accepted, not_finite,
 /// bad_quaternion or too_far.
 GateResult check_pose(const RawSample& sample, const InputSettings& settings);
 
@@ -45,27 +45,27 @@ struct GateCounts {
   std::size_t accepted = 0;                    ///< samples that were accepted
   std::size_t relocations = 0;                 ///< jumps that were accepted
   std::size_t dropouts = 0;                    ///< gaps between accepted samples longer than `dropout_after`
-  double newest_dropout = 0.0;                 ///< length of the newest of them [s]
-  std::size_t sign_flips = 0;                  ///< neighbours whose quaternions have opposite signs; harmless
+  double newest_dropout = 0.0;                 ///< length of the newest dropout [s]
+  std::size_t sign_flips = 0;                  ///< pairs of neighbours with quaternions of opposite sign; harmless
   std::map<GateResult, std::size_t> rejected;  ///< number of rejected samples by result
 };
 
-/// Returns a complaint about a hand that does not move because most of its samples come farther apart than
-/// `dropout_after` [s]; otherwise nothing.
+/// Returns a message about a hand that does not move because most of its samples come farther apart than
+/// `dropout_after` [s]. Returns an empty text for any other hand.
 std::string complaint_about_gaps(const GateCounts& counts, double dropout_after);
 
-/// Outlier gate for the samples of one station: accepts only motions that a hand can make. A sample that is too far
-/// from the last accepted one for the time between them is rejected; once `accept_after` consecutive samples agree with
-/// each other, the new position is accepted as a relocation. The time between samples counts as at most
-/// `dropout_after`, so that a long gap does not admit everything.
+/// Outlier gate for the samples of one hand, in the tracker's frame: it accepts only motions that a hand can make. A
+/// sample that is too far from the last accepted one for the time between them is rejected. Once `accept_after`
+/// consecutive samples agree with each other, the new position is accepted as a relocation. The time between samples
+/// counts as at most `dropout_after`, so that a long gap does not admit everything.
 class SampleGate {
  public:
-  /// `dropout_after` [s], > 0: a longer gap is a dropout, and the next sample a relocation.
+  /// `dropout_after` [s], > 0: a longer gap between samples is a dropout, and the sample after it is a relocation.
   SampleGate(const InputSettings& settings, double dropout_after);
 
   GateResult offer(const RawSample& sample);            ///< checks a sample after all that were offered before it
   const GateCounts& counts() const { return counts_; }  ///< counts since the start
-  /// Forgets the samples, after a time jump; keeps the counts.
+  /// Forgets all samples, after a jump of time. Counts are kept.
   void restart();
 
  private:

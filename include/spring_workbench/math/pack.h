@@ -4,14 +4,15 @@
 
 #include "spring_workbench/math/rigid_transform.h"
 
-// Arithmetic on several numbers at once: code written once for a scalar `S` works for `double` and for `Pack`.
+// Arithmetic on several numbers at once, which only makes built-in methods fast: users of the interface with `double`
+// can ignore it. Code that is written once for a scalar `S` works for `double` and for `Pack`.
 
-/// For functions on packs: inlined into their caller, whatever processor it is compiled for.
+/// Declares a function on packs that is inlined into its caller, whatever processor the caller is compiled for.
 #define SPRING_WORKBENCH_INLINE inline __attribute__((always_inline))
 
-/// Compiles a function twice: for any processor, and for those with AVX and FMA (a pack in one register, fused
-/// multiply-add). The choice is made at program start. For free and non-virtual functions that take packs by reference.
-/// A build that defines it as nothing has the first version alone: the same digits on all processors.
+/// Compiles a function twice: for any processor, and for processors with AVX and FMA, which hold a pack in one
+/// register. The choice is made at program start. The function must be free or non-virtual and take packs by reference.
+/// A build that defines this macro as nothing has only the first version, and the same digits on all processors.
 #if defined(SPRING_WORKBENCH_WIDE)
 #elif defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 11 && !defined(__clang__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -22,16 +23,16 @@
 
 namespace spring_workbench::math {
 
-/// Four numbers in one register, or in two.
+/// A pack: four numbers in one register or in two. Each number is a lane.
 using Pack = double __attribute__((vector_size(32)));
 constexpr int pack_size = 4;  ///< number of lanes of a Pack
 
 /// Makes a pack of these numbers.
 SPRING_WORKBENCH_INLINE Pack pack(const std::array<double, 4>& x) { return Pack{x[0], x[1], x[2], x[3]}; }
 
-/// Lane `i` of a pack.
+/// Returns lane `i` of a pack, 0 … 3.
 SPRING_WORKBENCH_INLINE double lane(const Pack& p, int i) { return p[i]; }
-/// The only lane of a number: the number itself.
+/// Returns the only lane of a number, which is the number itself.
 SPRING_WORKBENCH_INLINE double lane(double x, int) { return x; }
 /// Number of lanes of `S`: 4 for Pack, 1 for double.
 template <typename S>
@@ -41,7 +42,7 @@ constexpr int lanes = sizeof(S) / sizeof(double);
 SPRING_WORKBENCH_INLINE void set_lane(Pack& p, int i, double x) { p[i] = x; }
 /// Sets the only lane of a number.
 SPRING_WORKBENCH_INLINE void set_lane(double& p, int, double x) { p = x; }
-/// The largest lane.
+/// Returns the largest lane.
 template <typename S>
 SPRING_WORKBENCH_INLINE double largest(const S& p) {
   double result = lane(p, 0);
@@ -49,7 +50,7 @@ SPRING_WORKBENCH_INLINE double largest(const S& p) {
   return result;
 }
 
-/// The sum of all lanes, in an order that is the same on every processor.
+/// Returns the sum of all lanes. The order of the additions is the same on every processor.
 SPRING_WORKBENCH_INLINE double sum(const Pack& p) { return (p[0] + p[1]) + (p[2] + p[3]); }
 
 /// A vector of three coordinates.
@@ -147,7 +148,7 @@ template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
   return v.x * m.x + v.y * m.y + v.z * m.z;
 }
-/// `mᵀ v`.
+/// Product `mᵀ v` of the transposed matrix and a vector, lane by lane.
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto transposed(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
   return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
@@ -158,7 +159,7 @@ SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& a, const ThreeByTh
     -> ThreeByThree<decltype(a.x.x * b.x.x)> {
   return {a * b.x, a * b.y, a * b.z};
 }
-/// `p v vᵀ + q I + r [v]×`.
+/// Returns the matrix `p v vᵀ + q I + r [v]×`, lane by lane.
 template <typename S>
 SPRING_WORKBENCH_INLINE ThreeByThree<S> symmetric_and_skew(const S& p, const S& q, const S& r, const Three<S>& v) {
   const Three<S> pv = p * v, rv = r * v;

@@ -18,31 +18,31 @@
 namespace spring_workbench::math {
 
 /// Saves or restores the numbers of a state, always in the same order. A class lists the members that a step changes
-/// in one function, `exchange(StateArchive& state) { state(a_, b_); }`, which does both (like Boost's `serialize`). An
-/// archive contains only numbers: no pointer, no padding, no capacity.
+/// in one function, `exchange(StateArchive& state) { state(a_, b_); }`. This function both saves and restores, like
+/// `serialize` of Boost. An archive contains only numbers: no pointer, no padding, no capacity.
 class StateArchive {
  public:
-  using Words = std::vector<std::uint64_t>;  ///< the bits of numbers: a double, integer or enumerator each
+  using Words = std::vector<std::uint64_t>;  ///< one word per number, with the bits of a double, integer or enumerator
 
-  /// Makes an archive that reads the numbers of a state, about as many as `expected`.
+  /// Makes an archive that saves the numbers of a state, about as many as `expected`.
   explicit StateArchive(std::size_t expected = 0) { taken_.reserve(expected); }
-  /// Makes an archive that sets the numbers of a state from `words`, which must outlive it.
+  /// Makes an archive that restores the numbers of a state from `words`, which must outlive the archive.
   explicit StateArchive(const Words& words) : given_(&words) {}
 
-  bool sets() const { return given_ != nullptr; }  ///< whether it sets the state; otherwise it reads it
-  const Words& taken() const& { return taken_; }   ///< the numbers that were read
-  Words taken() && { return std::move(taken_); }   ///< the numbers that were read, moved out
-  /// Whether no word is left to set the state from.
+  bool sets() const { return given_ != nullptr; }  ///< whether the archive restores a state; otherwise it saves one
+  const Words& taken() const& { return taken_; }   ///< the numbers that were saved
+  Words taken() && { return std::move(taken_); }   ///< the numbers that were saved, moved out
+  /// Whether no word is left to restore from.
   bool at_end() const { return given_ == nullptr || next_ == given_->size(); }
 
-  /// Reads or sets the next values of the state. Throws std::out_of_range if there are too few words.
+  /// Saves or restores the next values of the state. Throws std::out_of_range if there are too few words.
   template <typename... Values>
   void operator()(Values&... values) {
     (exchange(values), ...);
   }
 
-  /// Reads or sets the size of a container with at least one word per element. Throws std::out_of_range if fewer words
-  /// are left.
+  /// Saves or restores the size of a container with at least one word per element; `present` is its present size.
+  /// Returns the size. Throws std::out_of_range if fewer words are left.
   std::size_t size(std::size_t present) {
     exchange(present);
     if (sets() && present > given_->size() - next_) throw std::out_of_range("state: ends too early");
@@ -160,7 +160,7 @@ class StateArchive {
   std::size_t next_ = 0;
 };
 
-/// FNV-1a of the words' bytes, lowest first: the same on every machine.
+/// Returns the FNV-1a hash of the words' bytes, lowest byte first. It is the same on every machine.
 inline std::uint64_t hash(const StateArchive::Words& words) {
   std::uint64_t h = 14695981039346656037u;
   for (const std::uint64_t word : words) {
@@ -169,9 +169,10 @@ inline std::uint64_t hash(const StateArchive::Words& words) {
   return h;
 }
 
-/// A word, or a hash, as 16 hexadecimal digits.
+/// Returns a word or a hash as 16 hexadecimal digits.
 std::string to_hex(std::uint64_t word);
-/// The words whose digits by to_hex(), one word after the other, are `text`; nothing if it is not such a text.
+/// Returns the words whose digits by to_hex(), one word after the other, are `text`. Returns nothing for any other
+/// text.
 std::optional<StateArchive::Words> words_of_hex(const std::string& text);
 
 }  // namespace spring_workbench::math

@@ -8,11 +8,11 @@
 
 namespace spring_workbench::motion {
 
-/// A frame's motion at one moment, in world axes: pose, velocity [m/s, rad/s] and acceleration [m/s², rad/s²].
+/// Motion of a frame at one moment, in world axes.
 struct MotionState {
   RigidTransform X = RigidTransform::Identity();  ///< pose
-  Twist velocity;                                 ///< [m/s, rad/s]
-  Twist acceleration;                             ///< [m/s², rad/s²]
+  Twist velocity;                                 ///< velocity [m/s, rad/s]
+  Twist acceleration;                             ///< acceleration [m/s², rad/s²]
 };
 
 /// Motion of a frame B at one moment, with angular velocity and acceleration in its own axes.
@@ -24,21 +24,21 @@ struct OwnAxesMotion {
   Vector3d alpha_B = Vector3d::Zero();            ///< angular acceleration, axes of B [rad/s²]
 };
 
-/// Velocity and acceleration of a frame B in its own axes, at one time or at several (`S` a pack).
+/// Velocity and acceleration of a frame B in its own axes, at one time (`S` double) or at several (`S` a math::Pack).
 template <typename S>
 struct FrameForcing {
   math::ThreeByThree<S> R_WB;  ///< rotation: columns are the axes of B in W
   math::Three<S> v_B;          ///< velocity of the origin [m/s]
   math::Three<S> w_B;          ///< angular velocity [rad/s]
   math::Three<S> alpha_B;      ///< angular acceleration [rad/s²]
-  math::Three<S> a_B;          ///< proper acceleration: that of the origin, less gravity [m/s²]
+  math::Three<S> a_B;          ///< proper acceleration: the acceleration of the origin less gravity [m/s²]
 };
 
-/// Motion of a frame, twice differentiable over the requested times.
+/// Motion of a frame as a function of time, such as the handle's. It is twice differentiable over the requested times.
 class FrameMotion {
  public:
-  virtual OwnAxesMotion in_own_axes(double t) const = 0;  ///< the motion at time `t` [s]
-  /// The motion at the times `t` [s], with `gravity` [m/s²] along −z of world.
+  virtual OwnAxesMotion in_own_axes(double t) const = 0;  ///< returns the motion at time `t` [s]
+  /// Returns the motion at several times `t` [s], with `gravity` [m/s²] along −z of world.
   virtual FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const = 0;
 
  protected:
@@ -48,9 +48,9 @@ class FrameMotion {
 /// One sample of a tracked frame: time [s] and pose.
 struct PoseSample {
   double t = 0.0;                                 ///< time [s]
-  RigidTransform X = RigidTransform::Identity();  ///< pose of the frame
+  RigidTransform X = RigidTransform::Identity();  ///< pose of the frame; positions in m
 
-  /// Saves or restores both.
+  /// Saves or restores both fields.
   void exchange(math::StateArchive& state) { state(t, X); }
 };
 
@@ -58,24 +58,24 @@ struct PoseSample {
 /// velocities at both ends (see doc/model.md).
 class MotionSegment final : public FrameMotion {
  public:
-  /// At rest at `X` from `begin` to `end` [s]; by default forever.
+  /// A frame at rest at the pose `X` from `begin` to `end` [s]; by default forever.
   explicit MotionSegment(const RigidTransform& X, double begin = -std::numeric_limits<double>::infinity(),
                          double end = std::numeric_limits<double>::infinity());
-  /// From sample `a` to sample `b` (`a.t < b.t`) with the velocities at both; linear part in world axes,
-  /// `w_*_B` the body rates in the body's own axes.
+  /// A motion from sample `a` to sample `b`, `a.t < b.t`, with given velocities at both: `v_…` in world axes [m/s] and
+  /// `w_…_B` in the axes of the frame [rad/s].
   MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vector3d& w_a_B, const PoseSample& b,
                 const Vector3d& v_b, const Vector3d& w_b_B);
 
-  /// The motion of a frame C that is fixed to the frame B of this motion at the pose `X_BC`.
+  /// Returns the motion of a frame C that is fixed to the frame B of this motion at the pose `X_BC`.
   MotionSegment of_frame(const RigidTransform& X_BC) const;
 
-  double begin() const { return begin_; }  ///< time of its start [s]
-  double end() const { return end_; }      ///< time of its end [s]; infinity for a frame at rest
-  /// Motion at time `t` [s], begin() ≤ t ≤ end().
+  double begin() const { return begin_; }  ///< time of the start [s]
+  double end() const { return end_; }      ///< time of the end [s]; infinity for a frame at rest
+  /// Returns the motion at time `t` [s], begin() ≤ t ≤ end(), in world axes.
   MotionState at(double t) const;
   OwnAxesMotion in_own_axes(double t) const override;
   FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override;
-  /// Whether this frame is at rest at another pose than that of `next` at time `t` [s].
+  /// Returns whether this frame rests, and `next` is at a different pose at time `t` [s].
   bool rests_apart_from(const MotionSegment& next, double t) const {
     return !moving_ && at(t).X.matrix() != next.at(t).X.matrix();
   }

@@ -6,34 +6,35 @@
 
 namespace spring_workbench::motion {
 
-/// The samples of one tracked frame and the C¹ motion that interpolates them. The velocity at a sample is computed from
-/// the sample and its two neighbours (at an end of the motion: from the chord to the only neighbour). It is fixed when
-/// the first segment that uses it is requested, so that a live track, whose newest sample is an end, stays C¹, too.
+/// The samples of one tracked frame and the C¹ motion that interpolates them (doc/model.md). The velocity at a sample
+/// is computed from the sample and its two neighbours or, at an end of the motion, from the chord to its only
+/// neighbour. The velocity is frozen when a segment first uses it. Later samples therefore do not change motion that
+/// has been handed out, and the motion of a live track, whose newest sample is always an end, stays C¹.
 class PoseTrack {
  public:
-  /// `dropout_after` [s]: after a gap between samples longer than this, the frame is at rest at the last pose until the
-  /// next sample, at whose pose the motion continues.
+  /// `dropout_after` [s], > 0: if the gap between two samples is longer, the frame rests at the first pose until the
+  /// time of the second, and the motion continues from there.
   explicit PoseTrack(double dropout_after = 0.5);
 
-  /// Adds a sample. Returns false, and ignores it, if its stamp is not later than the newest one by at least half a
-  /// nanosecond. Throws InputError when the sample is not finite, is out of any range (|t| > 1e12 s, |p| > 1e9 m) or
-  /// its linear part is not a rotation.
+  /// Adds a sample. Returns false, and ignores the sample, if it is not later than the newest one by at least half a
+  /// nanosecond. Throws InputError if the sample is not finite, is out of range (|t| > 1e12 s, |p| > 1e9 m) or its
+  /// linear part is not a rotation.
   bool push(const PoseSample& sample);
 
-  bool empty() const { return nodes_.empty(); }             ///< whether it has no sample
-  double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample still held [s]
+  bool empty() const { return nodes_.empty(); }             ///< whether the track has no sample
+  double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample that is kept [s]
   double end() const { return nodes_.back().sample.t; }     ///< time of the newest sample [s]
-  /// The segment that starts at or contains `t`, begin() ≤ t; at or after end(), at rest at the newest pose. The
-  /// reference is valid until the next call of a non-const function. Throws std::logic_error if the track is empty or
-  /// `t` is before begin().
+  /// Returns the segment that starts at or contains the time `t` [s], begin() ≤ t, and freezes its velocities. From
+  /// end() on, the segment rests at the newest pose. The reference is valid until the next call of a non-const
+  /// function. Throws std::logic_error if the track is empty or `t` is before begin().
   const MotionSegment& segment(double t);
-  /// The segment at `t` without fixing velocities: the motion as known so far.
+  /// Returns the segment at time `t` [s] as known so far, without freezing its velocities.
   MotionSegment provisional(double t) const;
-  /// The pose at `t` as in provisional(); at a sample, exactly that of the sample.
+  /// Returns the pose of provisional() at time `t` [s]. At a sample, it is exactly the pose of the sample.
   RigidTransform pose(double t) const;
-  /// Stamp of the first sample later than `t` [s]; infinity if there is none.
+  /// Returns the time of the first sample later than `t` [s], or infinity if there is none.
   double next_after(double t) const;
-  /// Forgets samples that no segment at or after `t` needs.
+  /// Forgets samples that no segment at or after the time `t` [s] needs.
   void forget_before(double t);
   void clear();  ///< forgets all samples
 

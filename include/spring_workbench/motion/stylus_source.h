@@ -9,15 +9,15 @@
 
 namespace spring_workbench::motion {
 
-/// A sample of a tracked stylus: `t` [s] since the source's first sample, the pose X of the stylus in the tracker's
-/// base frame, whether the grasp button is down, and which stylus it is.
+/// A sample of a tracked stylus. `t` is the time since the first sample of the source [s], and `X` is the pose of the
+/// stylus in the tracker's base frame.
 struct StylusSample : PoseSample {
   bool button = false;           ///< whether the grasp button is down
   std::size_t hand = 0;          ///< number of the stylus, from 0
-  double quaternion_norm = 1.0;  ///< length of the quaternion from which X was made, for input.quaternion_tolerance
+  double quaternion_norm = 1.0;  ///< length of the quaternion from which `X` was made, for hand_input::Feed
 };
 
-/// A button edge of a stylus.
+/// A button edge of a stylus: a button is pressed or released.
 enum class ButtonEdge {
   grasp,       ///< the grasp button goes down
   release,     ///< the grasp button goes up
@@ -28,27 +28,27 @@ enum class ButtonEdge {
 
 /// Measurement of a machine's force sensor: a wrench on the held object at the tip E.
 struct ExternalWrench {
-  /// Axes of the wrench: fixed in the world, or those of the tip, which turn with it.
+  /// Axes of the wrench: fixed in world, or the axes of the tip, which turn with it.
   enum class Axes { world, tip };
   double t = 0.0;           ///< time of the measurement [s]
-  Wrench wrench;            ///< about the origin of E, each component within ±1e5 [N, N·m]
+  Wrench wrench;            ///< wrench about the origin of E [N, N·m], each component within ±1e5
   Axes axes = Axes::world;  ///< axes in which `wrench` is given
 
   /// Saves or restores all fields.
   void exchange(math::StateArchive& state) { state(t, wrench, axes); }
 };
-/// The words for the axes.
+/// The words for the axes in messages and in Python.
 inline std::vector<std::string> names_of(ExternalWrench::Axes) { return {"world", "tip"}; }
 
-/// Throws InputError naming `where`, field, value and rule if a component is not finite or out of range.
+/// Throws InputError, with `where`, field, value and rule, if a component is not finite or out of range.
 void validate(const ExternalWrench& sample, const std::string& where);
 
-/// Source of stylus samples: a device, a recording or a script. Stamps are passed on unchanged, including repeated and
-/// backward ones (PoseTrack ignores those).
+/// Source of stylus samples: a device, a recording or a script. It passes time stamps on unchanged, even if they repeat
+/// or go backward (PoseTrack then ignores the sample).
 class StylusSource {
  public:
   virtual ~StylusSource() = default;
-  /// Returns the next sample, or nothing at the end.
+  /// Returns the next sample, or nothing at the end of the source.
   virtual std::optional<StylusSample> next() = 0;
 };
 

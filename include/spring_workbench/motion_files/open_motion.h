@@ -7,9 +7,10 @@
 
 namespace spring_workbench::motion_files {
 
-/// Opens a motion file: a script of waypoints if the name ends in `.yaml` or `.yml`, otherwise a recording: lines of
-/// `t x y z qx qy qz qw [button]` in s and m, with w as the last number of the quaternion (the constructor of
-/// Quaterniond takes it first). Throws InputError with file, line, rule and value for one that is invalid.
+/// Opens a motion file. A file whose name ends in `.yaml` or `.yml` is a script of waypoints. Any other file is a
+/// recording with lines of `t x y z qx qy qz qw [button]` in s and m; w is the last number of the quaternion, although
+/// the constructor of Quaterniond takes it first. Throws InputError, with file, line, rule and value, if the file
+/// cannot be read or is invalid.
 std::unique_ptr<motion::StylusSource> open_motion(const std::string& path);
 
 }  // namespace spring_workbench::motion_files

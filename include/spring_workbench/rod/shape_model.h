@@ -12,9 +12,9 @@ namespace spring_workbench::rod {
 /// Largest number of strain coordinates of a shape model.
 constexpr int max_strain_coordinates = 6;
 
-/// One number per strain coordinate; at most six, so that it is not on the heap.
+/// One number per strain coordinate. There are at most six, so it needs no heap.
 using StrainVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_strain_coordinates, 1>;
-/// A square matrix of the strain coordinates.
+/// A square matrix over the strain coordinates.
 using StrainMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_strain_coordinates, max_strain_coordinates>;
 /// A vector [x; y; z] per strain coordinate, one in each column.
@@ -30,7 +30,7 @@ struct TipKinematics {
   Vector3d linear_bias = Vector3d::Zero();   ///< acceleration = linear · q̈ + linear_bias [m/s²]
 };
 
-/// TipKinematics for one strain (`S` = double) or several at once.
+/// TipKinematics for one strain (`S` double) or for several at once (`S` a math::Pack).
 template <typename S>
 struct TipOf {
   math::ThreeByThree<S> R_HE;                      ///< rotation of the tip
@@ -41,58 +41,61 @@ struct TipOf {
   math::Three<S> linear_bias;                      ///< TipKinematics::linear_bias [m/s²]
 };
 
-/// The strain coordinates of a DOF: [begin, begin + count).
+/// The strain coordinates of a DOF: from `begin` to `begin + count - 1`.
 struct CoordinateRange {
-  int begin = 0;  ///< the first one
-  int count = 0;  ///< how many there are
+  int begin = 0;  ///< index of the first coordinate
+  int count = 0;  ///< number of coordinates
 };
 
 /// The curve of the fork's spring part as a function of a few strain coordinates q (doc/model.md, "Shape models";
-/// paper, section 4). Clamped to the handle at H, and straight along z of H for q = 0. Immutable; knows neither time
-/// nor mass. Units of q: bend (curvatures) and torsion (twist per length) [1/m], stretch [–]; for `bushing`
-/// displacements [m] and a rotation vector [rad], which are called strain as well. Rates are in these units per second.
+/// paper, section 4). The rod is clamped to the handle at H. With q = 0 it is straight along z of H. A shape model is
+/// immutable and knows neither time nor mass. Units of q: bend (curvatures) and torsion (twist per length) [1/m],
+/// stretch [–]. The coordinates of a `bushing`, also called strain, are displacements [m] and a rotation vector [rad].
+/// Rates are in these units per second.
 class ShapeModel {
  public:
   virtual ~ShapeModel() = default;
 
-  /// Number of strain coordinates: bend first, then torsion, then stretch.
+  /// Number of strain coordinates. Their order is bend, torsion, stretch.
   virtual int size() const = 0;
   virtual CoordinateRange bend() const = 0;                    ///< coordinates of the bend
   CoordinateRange torsion() const { return {size() - 2, 1}; }  ///< coordinate of the torsion
   CoordinateRange stretch() const { return {size() - 1, 1}; }  ///< coordinate of the stretch
-  /// Scale of each coordinate, in its own unit: changes by it move or turn the tip by about length() or 1 rad.
+  /// Scale of each coordinate, in its own unit. A change by the scale moves the tip by about length() or turns it by
+  /// about 1 rad.
   virtual StrainVector units() const = 0;
 
-  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J], for the stiffness of the DOFs [N/m, N/m, N·m/rad].
+  /// Returns the diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J], for the stiffness `k` [N/m, N/m, N·m/rad].
   virtual StrainVector stiffness(const PerDof& k) const = 0;
-  /// Diagonal of the damping matrix D for the damping coefficients `c` of the DOFs [N·s/m, N·s/m, N·m·s/rad]. Within
-  /// each DOF, D is c / k times K for the stiffness `k`, or its limit if k is zero.
+  /// Returns the diagonal of the damping matrix D for the coefficients `c` [N·s/m, N·s/m, N·m·s/rad]. Within each DOF,
+  /// D is c / k times K for the stiffness `k`, or the limit of this product if k is zero.
   virtual StrainVector damping(const PerDof& c, const PerDof& k) const;
 
   /// Computes the tip for strain `q` and strain rate `q_dot`, both of length size().
   void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const;
   /// Computes the tip for arrays of size() coordinates and rates.
   virtual void tip(const double* q, const double* q_dot, TipOf<double>& out) const = 0;
-  /// Computes several tips, one in each lane, for arrays of size() coordinates and rates.
+  /// Computes several tips, one in each lane of a pack, for arrays of size() coordinates and rates.
   virtual void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const = 0;
 
-  /// Whether the strain is the tip's displacement from (0, 0, length()) and its rotation vector: (dx, dy, φx, φy, φz,
-  /// dz).
+  /// Optional. Whether the strain is (dx, dy, φx, φy, φz, dz): the tip's displacement from (0, 0, length()) and its
+  /// rotation vector. If not overridden: false.
   virtual bool strain_is_pose() const { return false; }
 
   virtual double extension(const StrainVector& q) const = 0;      ///< change of the rod's length [m]
   virtual double torsion_angle(const StrainVector& q) const = 0;  ///< twist of the tip about the rod [rad]
 
-  /// Pose in H of the rod's cross section at arc length `s` of the rest shape, 0 ≤ s ≤ length() [m].
+  /// Returns the pose in H of the rod's cross section at arc length `s` of the rest shape, 0 ≤ s ≤ length() [m].
   virtual RigidTransform section(const StrainVector& q, double s) const = 0;
 
-  /// Changes to equivalent coordinates with less strain, if there are any, and converts the rates accordingly (a
-  /// rotation vector beyond half a turn becomes that of the shorter rotation). Returns whether it did.
+  /// Optional. Replaces a strain and its rates by equivalent ones with less strain, if there are any. For example, a
+  /// rotation vector beyond half a turn becomes the vector of the shorter rotation. Returns whether it changed them. If
+  /// not overridden: returns false.
   virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
 
-  /// Whether the strain is possible: finite, not inverted, and within the rod's range.
+  /// Returns whether the strain is possible: finite, not inverted, and within the rod's range.
   bool admissible(const StrainVector& q) const { return q.allFinite() && range_used(q) < 1.0; }
-  /// Fraction of the rod's range that this strain uses: 0 at rest, 1 at the limit; a convex function of `q`.
+  /// Returns the fraction of the rod's range that this strain uses: 0 at rest, 1 at the limit. It is convex in `q`.
   virtual double range_used(const StrainVector& q) const = 0;
 
   double length() const { return length_; }  ///< length at rest [m]
@@ -105,14 +108,13 @@ class ShapeModel {
   double length_;  ///< [m]
 };
 
-/// A shape model's rod while it cannot bend. It then turns and stretches along its own axis only, which needs no
-/// quadrature however often it is wound up.
+/// Internal: a shape model's rod while it cannot bend. It only turns about its axis and stretches along it. Its tip
+/// therefore needs no quadrature, however often the rod is wound up.
 class StraightRod {
  public:
   explicit StraightRod(const ShapeModel& shape);  ///< the rod of `shape`, which is not needed afterwards
 
-  /// ShapeModel::tip for the strain `q` without bend. The columns of the bend coordinates are set to zero. Defined in
-  /// straight_rod.h.
+  /// ShapeModel::tip for the strain `q` without bend. The columns of the bend coordinates are set to zero.
   template <typename S>
   void tip(const S* q, TipOf<S>& out) const;
 
@@ -122,8 +124,8 @@ class StraightRod {
   double twist_, extension_;  ///< by unit of their coordinates
 };
 
-/// Makes a shape model. `length` [m] > 0: length at rest; `slope_stiffness`: see ForkSettings. Throws InputError for an
-/// invalid length.
+/// Makes a shape model. `length` [m] > 0: length at rest. `slope_stiffness`: see ForkSettings. Throws InputError if the
+/// length is invalid.
 std::shared_ptr<const ShapeModel> make_shape_model(ShapeKind kind, double length,
                                                    std::optional<double> slope_stiffness = std::nullopt);
 

@@ -20,81 +20,80 @@ namespace spring_workbench::simulation {
 
 using rod::ForkChange;
 
-/// Settings of a simulation, one field per key. `setting_descriptions()` has type, unit, range and meaning of each key;
-/// parameters, the options of `replay` and doc/reference.md come from it.
+/// Settings of a simulation, one field per key. setting_descriptions() and doc/reference.md explain each key.
 struct SimulationSettings {
-  std::optional<tools::Tool> tool;            ///< key `tool`; absent: as the scene says
-  std::optional<scene::ContactMode> contact;  ///< key `contact`; absent: as the scene says
-  std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000; absent: as the scene says
-  std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9; absent: as the scene says
-  bool massless = false;                      ///< key `massless`: no object has mass
-  int styluses = 2;                           ///< key `styluses`, 1 … 255 (a byte in messages)
-  double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
-  double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3
-  int clutch_button = 2;                      ///< key `clutch.button`: index in the stylus' Joy
+  std::optional<tools::Tool> tool;            ///< key `tool`; absent: the scene's tool
+  std::optional<scene::ContactMode> contact;  ///< key `contact`; absent: the scene's contact mode
+  std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000; absent: the scene's gravity
+  std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9; absent: the scene's scale
+  bool massless = false;                      ///< key `massless`: whether all objects are without mass
+  int styluses = 2;                           ///< key `styluses`, 1 … 255: number of hands
+  double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3: factor on the hand's positions
+  double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3: world time per time of the hand
+  int clutch_button = 2;                      ///< key `clutch.button`: index of the clutch's button, for nodes
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `error_bound`, `inertia`
   rod::ForkSettings fork;                     ///< keys `shape`, `fork.…`
   tools::LimitSettings limit;                 ///< keys `limit.…`
   tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;   ///< key `dropout_after` [s], > 0: silence after which a hand rests
-  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10
+  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10: time after which a wrench ends
   int impact_bisections = 8;    ///< key `impact_bisections`, 0 … 30 (paper, section 5); 0: time of impact instead
 };
 
-/// Throws InputError naming `where`, key, value and rule for a value that its key does not allow, or for damping ratios
-/// that the damping law does not allow.
+/// Throws InputError, with `where`, key, value and rule, if a value is not allowed by its key or by the damping law.
 void validate(const SimulationSettings& settings, const std::string& where);
 
-/// Converts a twist in the world to the lengths and time of the hand, for a machine that moves in place of the hand.
-/// Axes stay those of the world.
+/// Converts a twist (world axes) to the hand's scales of length and time, for a machine in place of the hand.
 inline Twist to_hand_units(const Twist& V_W, const SimulationSettings& s) {
   return {s.hand_time_scale / s.hand_scale * V_W.linear, s.hand_time_scale * V_W.angular};
 }
 
-/// A change of integrator, step or tolerance; absent fields stay as they are.
+/// A change of integrator, step or tolerance of all hands. Absent fields are not changed.
 struct DynamicsChange {
-  std::optional<dynamics::IntegratorKind> integrator;  ///< of all hands
-  std::optional<double> step;                          ///< largest step [s]
-  std::optional<double> tolerance;                     ///< for the error of the run [m]; 0: fixed steps
+  std::optional<dynamics::IntegratorKind> integrator;  ///< new integrator
+  std::optional<double> step;                          ///< new largest step [s], 1e-6 … 1
+  std::optional<double> tolerance;                     ///< new tolerance [m], 0 … 0.1; 0: fixed steps
 
   bool empty() const { return !integrator && !step && !tolerance; }                  ///< whether it changes nothing
   dynamics::DynamicsSettings applied_to(dynamics::DynamicsSettings dynamics) const;  ///< `dynamics` with this change
 };
 
-/// A change of one object of the scene while running.
+/// A change of one object of the scene while running, for Simulation::edit().
 struct ObjectEdit {
   /// Adds or removes the object, moves it, or changes its mass or friction.
   enum class Action { add, move, remove, mass, friction };
-  Action action = Action::move;        ///< what to do
-  std::string name;                    ///< of the object
-  std::string urdf;                    ///< for `add`: path or package:// URI of the object's URDF
-  std::optional<RigidTransform> X_WL;  ///< pose of its URDF link frame in world; required by `move`; an added
-                                       ///< object without it stands on the bench at x = y = 0
-  double mass = 0.0;                   ///< for `mass`: the new mass [kg], 0 … 1e12; with 0 the object is massless
-  double friction = 0.0;               ///< for `friction`: the new Coulomb coefficient, ≥ 0
+  Action action = Action::move;  ///< the kind of change
+  std::string name;              ///< name of the object
+  std::string urdf;              ///< for `add`: path or package:// URI of the object's URDF
+  /// For `move` and `add`: pose of the object's URDF link frame in world. Without it, an added object stands on the
+  /// bench at x = y = 0.
+  std::optional<RigidTransform> X_WL;
+  double mass = 0.0;      ///< for `mass`: the new mass [kg], 0 … 1e12; an object of 0 kg is massless
+  double friction = 0.0;  ///< for `friction`: the new Coulomb coefficient, ≥ 0
 
   bool operator==(const ObjectEdit& other) const;  ///< whether all fields are equal
-  void exchange(math::StateArchive& state) { state(action, name, urdf, X_WL, mass, friction); }  ///< all fields
+  /// Saves or restores all fields.
+  void exchange(math::StateArchive& state) { state(action, name, urdf, X_WL, mass, friction); }
 };
-/// The words for the actions, in their order.
+/// The words for the actions in messages, in their order.
 inline std::vector<std::string> names_of(ObjectEdit::Action) { return {"add", "move", "remove", "mass", "friction"}; }
 
-/// Throws InputError naming field, value and rule if a value is invalid.
+/// Throws InputError, with field, value and rule, if a value is invalid.
 void validate(const ObjectEdit& edit);
 
-/// Description of one key.
+/// Description of one key of SimulationSettings.
 struct SettingDescription {
-  std::string key;            ///< e.g. "fork.stiffness.bend"
-  std::string type;           ///< bool, int, double, string, double list
+  std::string key;            ///< key, e.g. "fork.stiffness.bend"
+  std::string type;           ///< type: bool, int, double, string or double list
   std::string unit;           ///< SI unit, or "–"
-  std::string allowed;        ///< e.g. "> 0"
-  std::string default_value;  ///< as text
-  std::string meaning;        ///< what it does, in one line
+  std::string allowed;        ///< allowed values, e.g. "> 0"
+  std::string default_value;  ///< default value, as text
+  std::string meaning;        ///< effect of the setting, in one line
 };
 std::vector<SettingDescription> setting_descriptions();  ///< descriptions of all settings
 
-/// Sets the fields given in `values` (a YAML map, nested or with dotted keys), all or none. Throws InputError naming
-/// `where`, key, value and rule for an unknown key, a wrong type or a value out of range.
+/// Sets the fields given in `values` (a YAML map, nested or with dotted keys), all or none. Throws InputError, with
+/// `where`, key, value and rule, for an unknown key, a wrong type or a value out of range.
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings);
 
 }  // namespace spring_workbench::simulation

@@ -27,10 +27,10 @@ class SimulationState {
   SimulationState() = default;  ///< an empty state, which `Simulation::restore` refuses
 
   int styluses() const { return styluses_; }  ///< number of styluses of the simulation that was saved; 0 if empty
-  std::uint64_t hash() const { return math::hash(words_); }  ///< the same for equal states, on every machine
+  std::uint64_t hash() const { return math::hash(words_); }  ///< equal for equal states, on every machine
   /// Whether two states are bit-identical and from simulations of the same kind.
   bool operator==(const SimulationState& other) const { return origin_ == other.origin_ && words_ == other.words_; }
-  bool operator!=(const SimulationState& other) const { return !(*this == other); }  ///< whether they are not
+  bool operator!=(const SimulationState& other) const { return !(*this == other); }  ///< whether they differ
 
  private:
   friend class Simulation;
@@ -43,29 +43,33 @@ class SimulationState {
   math::StateArchive::Words words_;
 };
 
-/// The state as YAML text for another process, with all bits of every number.
+/// Returns the state as YAML text, for a file or another process. The text keeps all bits of every number.
 std::string serialise(const SimulationState& state);
 
-/// Reads the text of serialise(). Throws InputError if it is not such a state, or if its hash does not match it.
+/// Reads a state from the text of serialise(). Throws InputError if the text is not a state or its hash does not match.
 SimulationState parse_state(const std::string& text);
 
-/// Report on a call of `advance_to` or a sequence of calls. Errors are the result minus the exact solution of the
-/// equation of motion. An error bound is an empirical estimate from above, not a rigorous bound (doc/model.md, "Error
-/// bound"). An integration is one solution of the equation of motion over a step or a part of one: in contact there
-/// are several in a step.
+/// Report on one call of Simulation::advance_to(), or on several calls whose reports were added by add().
+///
+/// `steps` counts the steps that were taken. An attempt at a step is discarded if its equation was not solved or its
+/// error was too large, and the step is repeated as shorter ones; `substeps` counts the discarded attempts. If no
+/// shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
+/// rigid for the step or, in contact, the object stays in place (`steps_rejected`; doc/model.md, "Steps that are not
+/// solved"). If the last three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual
+/// happened. In contact, one step may need several integrations of the equation of motion, each over a part of it.
+///
+/// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
+/// of an error from above, not a rigorous bound (doc/model.md, "Error bound").
 struct AdvanceReport {
   /// @name Steps and contact
   /// @{
-  std::int64_t steps = 0;       ///< integrator steps that were taken
+  std::int64_t steps = 0;       ///< steps that were taken
   double simulated_time = 0.0;  ///< time that was simulated [s]
-  /// Steps that were discarded and repeated as shorter ones, since the equation was not solved or the error too large
-  /// (other engines call a part of a step that is taken a substep; this counts those that are not).
-  std::int64_t substeps = 0;
-  int steps_fallback = 0;  ///< integrations by an L-stable rule, since the integrator's own equation was not solved
-  int steps_rejected = 0;  ///< steps without a usable result (non-finite or out of range): the fork is rigid for that
-                           ///< step or, in contact, the object stays
-  int stops = 0;           ///< steps in which the fork reached the end of its range; unrelated to contact mode `stop`
-  int steps_blocked = 0;   ///< steps in which no admissible motion of an object was found, so that it stayed in place
+  std::int64_t substeps = 0;    ///< attempts at a step that were discarded and repeated as shorter steps
+  int steps_fallback = 0;       ///< integrations by the L-stable rule, in place of the integrator
+  int steps_rejected = 0;       ///< steps without a usable result (non-finite or out of range)
+  int stops = 0;          ///< steps in which the fork reached the end of its range; unrelated to contact mode `stop`
+  int steps_blocked = 0;  ///< steps in which no admissible motion of an object was found, so that it stayed in place
   /// Steps, or parts of one, that were accepted although a contact among movable objects was left with a residual above
   /// 1 µm, was deeper than 0.1 mm, or was lost.
   int steps_unsolved = 0;
@@ -79,29 +83,31 @@ struct AdvanceReport {
   /// @{
   double position_error = 0.0;              ///< largest estimate of a step's local error in position [m]
   double angle_error = 0.0;                 ///< largest estimate of a step's local error in angle [rad]
-  std::optional<double> local_error_bound;  ///< largest bound of a local error in position [m]; none: no step has one
-  std::optional<double> error_bound;  ///< largest bound of an object's error in position since its grasp, or since its
-                                      ///< last step without a bound [m]; none: no step has one
-  std::optional<double> angle_error_bound;  ///< largest bound of an object's error in angle over that time [rad]
+  std::optional<double> local_error_bound;  ///< largest bound of a step's local error in position [m]; empty: unknown
+  /// Largest bound of an object's error in position [m], accumulated since the grasp or since the last step without a
+  /// bound; empty if no step has a bound, e.g. because the setting `error_bound` is off.
+  std::optional<double> error_bound;
+  std::optional<double> angle_error_bound;  ///< largest bound of an object's error in angle [rad]; see `error_bound`
   int integrations_without_bound = 0;       ///< integrations that have no error bound
   double energy_error = 0.0;                ///< sum of the steps' estimated errors in energy [J]
-  double energy_balance = 0.0;  ///< energy of the held object and the fork beyond the work of hand, gravity, damping
-                                ///< and contact [J]; meaningful if `stiffest_omega_dt` is below about 1
+  /// Energy created (> 0) or lost (< 0) by the integration itself [J]: the change in the energy of object and fork less
+  /// the work of hand, gravity, damping and contact. Meaningful if `stiffest_omega_dt` is below about 1.
+  double energy_balance = 0.0;
   /// @}
-  std::bitset<8> ran;  ///< the subsystems that ran; active() and skipped() have their names
+  std::bitset<8> ran;  ///< internal: the subsystems that ran, as bits; use active() and skipped()
 
   std::vector<std::string> active() const;   ///< names of the subsystems that ran
-  std::vector<std::string> skipped() const;  ///< names of the subsystems that were not needed
-  /// Adds a later report: sums of counts and times, maxima of errors, union of the subsystems that ran.
+  std::vector<std::string> skipped() const;  ///< names of the subsystems that the scene did not need
+  /// Adds a later report: sums counts, times and energies, and keeps the largest error of each kind.
   void add(const AdvanceReport& later);
 };
 
-/// Effect of a change on the energy.
+/// Report on a change to a running simulation: its effect on the energy.
 struct ChangeReport {
-  double elastic_energy_before = 0.0;  ///< stored in the tools just before the change [J]
-  double elastic_energy_after = 0.0;   ///< stored in the tools just after the change [J]
-  double energy_added = 0.0;           ///< what the change adds to Simulation::energy() [J]
-  std::string message;                 ///< one line for the user
+  double elastic_energy_before = 0.0;  ///< energy stored in all tools just before the change [J]
+  double elastic_energy_after = 0.0;   ///< energy stored in all tools just after the change [J]
+  double energy_added = 0.0;           ///< increase of Simulation::energy() by the change [J]
+  std::string message;                 ///< description of the change for the user, in one line
 };
 
 /// Simulates a scene with hands and their tools, and runs only the subsystems that the scene needs.
@@ -116,38 +122,43 @@ struct ChangeReport {
 ///
 /// - Frames: world W, stylus S, handle H, tip E, object O at its centre of mass. z of S and H points along the fork,
 ///   from the hand to the tip. Poses and velocities are in W unless the name says otherwise.
-/// - Hands are numbered from 0 to hands() − 1 (the nodes number them from 1); another number throws InputError.
-/// - Time: the simulation owns its time and reads no clock: the same calls give bit-identical results, without a NaN.
-///   All times are those of the hand's clock.
-///   World time runs `settings().hand_time_scale` times as fast; velocities,
-///   rates and `settings().dynamics.step` refer to world time.
+/// - Hands are numbered from 0 to hands() − 1 (the nodes count from 1); another number throws InputError. To hold an
+///   object without a button, set `grasp.object`. To begin without a hand, place() objects in the air and advance_to().
+/// - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come
+///   in any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
+/// - Time: the simulation owns its time and reads no clock. The same sequence of calls gives bit-identical results. No
+///   result is ever NaN. Times are those of the hand's clock, with any origin. World time runs
+///   `settings().hand_time_scale` times as fast; velocities, rates and `settings().dynamics.step` refer to it.
 /// - Lifetimes: the scene is copied. References from const members are valid until the next call of a non-const one. A
 ///   simulation can be moved; to copy it, construct one from the same scene and settings, then copy_state_from().
 /// - Threads: not thread-safe, not even among const members, apart from prepare_edit() and prepare_rewind(). Separate
 ///   simulations are independent.
 class Simulation {
  public:
-  /// Throws InputError if settings and scene do not match (e.g. if `grasp.object` is not in the scene).
+  /// Starts a simulation. Throws InputError if settings and scene do not match (e.g. no `grasp.object` in the scene).
   Simulation(const scene::Scene& scene, const SimulationSettings& settings);
   ~Simulation();
   Simulation(Simulation&&) noexcept;             ///< the other can then only be destroyed or assigned to
   Simulation& operator=(Simulation&&) noexcept;  ///< the other can then only be destroyed or assigned to
 
-  const scene::Scene& scene() const;  ///< the scene with all edits; objects are at their start poses
-  /// The settings as given, with `dynamics` as changed since and `fork` as calibrated to the world.
+  const scene::Scene& scene() const;  ///< the scene with all edits; its objects are at their start poses
+  /// The settings as given, except that `dynamics` is as last changed and `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
   std::size_t hands() const;                                           ///< number of hands, `settings().styluses`
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;  ///< the fork in a hand, with all changes so far
-  /// Simulated time [s]: at first the first sample's stamp, or the first `t_end` of advance_to() if that is earlier.
+  /// Simulated time [s]. It begins at the first sample's stamp, or at the first `t_end` of advance_to() if earlier.
   double time() const;
   double world_time() const;  ///< simulated time in world time [s]
 
-  /// Adds a pose X_WS of the stylus, unfiltered; its position is scaled by `settings().hand_scale`. Between samples the
-  /// hand moves smoothly. A sample before time() changes the hand's motion from time() on. Returns false, and ignores
-  /// the sample, if it is not later than the newest one. Throws InputError if the pose is invalid
-  /// (motion::PoseTrack::push).
+  /// Adds a pose X_WS of the stylus [m] at time `sample.t` [s]. It is not filtered; its position is multiplied by
+  /// `settings().hand_scale`. The hand moves smoothly between samples and rests after the last one. If the gap between
+  /// two samples is longer than `settings().dropout_after` (0.5 s), the hand stays at the first until the time of the
+  /// second, and then jumps to it. A sample before time() changes the hand's motion from time() on. Returns false, and
+  /// ignores the sample, if it is not later than the newest one. Throws InputError if the pose is not finite, not rigid
+  /// or out of range (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// Adds a button edge at the finite time `t` [s]; it acts at the first step that begins at or after `t`.
+  /// Adds a button edge at time `t` [s]. It acts at the first step that begins at or after `t`. Throws InputError if
+  /// `t` is not finite.
   void push_edge(double t, motion::ButtonEdge edge, std::size_t hand = 0);
   /// Presses or releases the grasp button at time `t` [s].
   void push_button(double t, bool pressed, std::size_t hand = 0) {
@@ -155,42 +166,45 @@ class Simulation {
   }
   /// Selects the next tool at time `t` [s] or, while something is held, the next tool that can hold it.
   void push_next_tool(double t, std::size_t hand = 0) { push_edge(t, motion::ButtonEdge::next_tool, hand); }
-  /// Switches the clutch at time `t` [s]. While it is on, the tool and what it holds stay in place; when it is switched
-  /// off, they follow the hand's further motion from there.
+  /// Switches the clutch at time `t` [s]. While it is on, the tool and its object stay in place. Once it is off, they
+  /// follow the hand's further motion from there.
   void push_clutch(double t, bool on, std::size_t hand = 0) {
     push_edge(t, on ? motion::ButtonEdge::clutch_on : motion::ButtonEdge::clutch_off, hand);
   }
-  /// Adds a wrench on the held object that was measured by a machine's force sensor, in real units; it is multiplied by
-  /// the scene's `force_scale`. It acts from its time (at once if that has passed) until the next wrench, but at most
-  /// for `settings().wrench_timeout`. Throws InputError, and changes nothing, if it is invalid.
+  /// Adds a wrench on the held object that a machine's force sensor measured, in real units; it is multiplied by the
+  /// scene's `force_scale`. It acts from its time (at once if that has passed) until the next wrench, but at most for
+  /// `settings().wrench_timeout`. It replaces pending wrenches of its own or a later time. Throws InputError, and
+  /// changes nothing, if it is invalid.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   double newest_sample_time() const;  ///< time of the newest sample of any hand, or time() if there is none [s]
   /// The next time [s] at which a hand has a sample, a button changes or an external wrench begins or ends; infinity if
   /// there is none. Advancing from event to event gives the same result as advancing over several in one call.
   double next_event_time() const;
 
-  /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; steps also end at each
-  /// sample. If `t_end` is not later than time(), no time passes, but pending buttons act. Throws InputError if it is
-  /// not finite.
+  /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; a step also ends at each
+  /// sample, button edge and change of a wrench. If `t_end` is not later than time(), no time passes, but pending
+  /// buttons act. Throws InputError if `t_end` is not finite.
   AdvanceReport advance_to(double t_end);
 
   void reset();  ///< releases all objects, returns them to their start poses and forgets all samples
-  /// Places these objects at rest at the given poses; all hands release first. Throws InputError, and changes nothing,
-  /// if a name is not that of a movable object or a pose is not finite.
+  /// Releases all objects and places the named ones at rest at these poses; unsupported ones then fall. Throws
+  /// InputError, and changes nothing, if no movable object has such a name or a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
-  /// One hand or, with std::nullopt, each releases its object. Returns false if nothing was held.
+  /// Releases the object of one hand or, with std::nullopt, of every hand. Returns false if nothing was held.
   bool release(std::optional<std::size_t> hand = std::nullopt);
 
   // Changes while running. Pose and twist of the object do not jump. An impossible change throws InputError and changes
   // nothing.
-  /// Changes the tool in one hand or, with std::nullopt, in each. The hand keeps its object, and the new tool starts
-  /// without strain; the probe cannot hold an object, so it is released.
+  /// Changes the tool in one hand or, with std::nullopt, in every hand. The hand keeps its object, and the new tool
+  /// starts without strain. The probe cannot hold an object, so a change to it releases the object.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = std::nullopt);
-  /// Changes the fork in one hand or, with std::nullopt, in each, and integrator, step or tolerance of all hands.
+  /// Changes the fork in one hand or, with std::nullopt, in every hand. `dynamics` is changed for all hands, whatever
+  /// `hand` is. Example: `change(fork, {}, 0)` changes only the fork of hand 0.
   ChangeReport change(const ForkChange& fork, const DynamicsChange& dynamics = {},
                       std::optional<std::size_t> hand = std::nullopt);
-  /// Calibrates one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
-  /// scene's stiffness. Damping ratios are not changed. Throws InputError if no fork or spring holds an object.
+  /// Calibrates the tool of one hand or, with std::nullopt, of every hand to the object that it holds. With
+  /// `calibrate: world` it restores the scene's stiffness instead. Damping ratios are not changed. Throws InputError if
+  /// no fork or spring holds an object.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
   /// Adds, moves or removes an object, or changes its mass or friction; the state of everything else is kept. Added and
   /// moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed one fall. A
@@ -206,35 +220,33 @@ class Simulation {
   /// @{
 
   /// First phase of edit(): builds the edited scene as a new simulation, or returns nothing if none is needed. Slow,
-  /// but another thread may call advance_to() meanwhile: it reads only what that does not change. Throws InputError.
+  /// but another thread may call advance_to() meanwhile. Throws InputError like edit().
   std::optional<Simulation> prepare_edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) const;
-  /// Second phase of edit(), fast: swaps in `prepared`, from prepare_edit(), which then is the simulation as it was
-  /// before, to be destroyed on any thread. Throws InputError.
+  /// Second phase of edit(), fast: swaps in `prepared`, the result of prepare_edit(). Afterwards `prepared` holds the
+  /// former simulation, which any thread may destroy. Throws InputError like edit().
   ChangeReport apply_edit(const ObjectEdit& edit, std::optional<Simulation>& prepared);
-  /// First phase of rewind_to(), as slow as prepare_edit() and as independent of advance_to(). Throws as restore().
+  /// First phase of rewind_to(). Slow, but another thread may call advance_to() meanwhile. Throws like restore().
   std::optional<Simulation> prepare_rewind(const SimulationState& state) const;
-  /// Second phase, fast: goes back to edits, settings, tools and objects of an earlier state. Time and the hands' input
-  /// (samples, buttons, clutch) continue, nothing is held, and the objects are at rest. `prepared`: as in apply_edit().
+  /// Second phase, fast: restores edits, settings, tools and objects of an earlier state. Time and the hands' input
+  /// (samples, buttons, clutch) continue, nothing is held, and the objects are at rest. `prepared`: see apply_edit().
   void rewind_to(const SimulationState& state, std::optional<Simulation>& prepared);
   /// @}
 
-  const std::vector<bodies::BodyState>& objects() const;  ///< the movable objects, in the scene's order
-  const bodies::Changes& object_changes() const;          ///< changes of the states in objects()
+  const std::vector<bodies::BodyState>& objects() const;  ///< states of the movable objects, in the scene's order
+  const bodies::Changes& object_changes() const;          ///< record of the changes in objects()
   tools::ToolState tool(std::size_t hand = 0) const;      ///< state of the tool in a hand
-  double elastic_energy() const;                          ///< stored in all tools [J]
-  /// elastic_energy(), and kinetic and potential energy of the objects (zero at z = 0) [J]; without what is stored in
-  /// compliant materials.
+  double elastic_energy() const;                          ///< energy stored in all tools [J]
+  /// Sum of elastic_energy() and the kinetic and potential energy of the objects (zero at z = 0) [J]. It excludes the
+  /// energy stored in compliant materials.
   double energy() const;
-  const std::vector<contact::ContactState>& contacts()
-      const;  ///< those now, and those that the last advance_to() ended
+  /// The present contacts, and the contacts that ended in the last advance_to().
+  const std::vector<contact::ContactState>& contacts() const;
 
-  /// Saves the whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
-  /// starts, histories of integrators, the settings that can be changed while running, and the edits. Two saves of one
-  /// state are equal.
+  /// Saves the whole state: time, hands with their input and tools, objects, contacts, histories of integrators, edits,
+  /// and the settings that can be changed while running. Two saves of one state are equal.
   SimulationState save() const;
-  /// Restores a saved state; the future is then bit-identical, whatever has happened in between. Throws InputError, and
-  /// changes nothing, if the state is invalid or has different objects, a different number of styluses, or a different
-  /// contact mode or fork shape.
+  /// Restores a saved state. The future is then bit-identical, whatever has happened in between. Throws InputError, and
+  /// changes nothing, if the state is invalid or differs in objects, number of styluses, contact mode or fork shape.
   void restore(const SimulationState& state);
   /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.
   void copy_state_from(const Simulation& other);
@@ -246,7 +258,7 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Runs `change`, which returns a message for the user. Returns the message, and the energies before and after it.
+/// Internal: runs `change`, which returns a message for the user. Reports the message and the change of energy.
 ChangeReport with_energy_report(const Simulation& simulation, const std::function<std::string()>& change);
 
 }  // namespace spring_workbench::simulation

@@ -10,17 +10,17 @@ namespace spring_workbench::tools {
 enum class Tool {
   spring,        ///< a spring-damper between the hand and the object's centre
   spring_fork,   ///< an elastic rod that bends, stretches and twists
-  spring_probe,  ///< a spring along its axis, which pushes
-  direct,        ///< rigid, at the hand
-  ray,           ///< rigid; the object is selected by a ray along z of the hand
+  spring_probe,  ///< a spring along its axis that pushes bodies and measures their stiffness, but cannot hold them
+  direct,        ///< a rigid link between the hand and the object
+  ray,           ///< a rigid link between the hand and the object, which a ray along z of the hand selects
 };
 
-/// Their words in settings, scenes and services.
+/// The words for the tools in settings, scenes and services.
 inline std::vector<std::string> names_of(Tool) { return {"spring", "spring_fork", "spring_probe", "direct", "ray"}; }
 inline bool can_hold(Tool tool) { return tool != Tool::spring_probe; }  ///< whether the tool can hold an object
-/// Whether the held object turns with the hand.
+/// Returns whether an object held by the tool turns with the hand.
 inline bool turns(Tool tool) { return can_hold(tool) && tool != Tool::spring; }
-/// Returns the next tool; with `holding`, the next one that can hold an object.
+/// Returns the tool after `tool` or, with `holding`, the next one that can hold an object.
 inline Tool next_tool(Tool tool, bool holding) {
   const Tool next = static_cast<Tool>((static_cast<std::size_t>(tool) + 1) % names_of(tool).size());
   return holding && !can_hold(next) ? next_tool(next, holding) : next;
