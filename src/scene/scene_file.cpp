@@ -126,7 +126,8 @@ std::string yaml_next_to(const std::string& urdf) {
   const auto exists = [](const fs::path& path) { return fs::symlink_status(path).type() != fs::file_type::not_found; };
   const fs::path yaml = fs::path(urdf).replace_extension(".yaml"), yml = fs::path(urdf).replace_extension(".yml");
   if (!exists(yml)) return yaml.string();
-  if (exists(yaml)) validation::refuse(urdf, "the YAML file next to it", "one, got .yaml and .yml");
+  if (exists(yaml))
+    validation::refuse_because(urdf, "YAML file", "there are two next to it, .yaml and .yml: remove one");
   return yml.string();
 }
 

@@ -89,8 +89,8 @@ bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
   if (!sender_.accepts(sender, ros_common::local_time().attended)) {
     statistics_.other_sender = sender;
-    rejections_.add(another_sender, "tf: " + frame_ + ": expected one sender, " + sender_.name() + ", but " + sender +
-                                        " also sends it");
+    rejections_.add(another_sender, "tf: " + frame_ + ": sent by " + sender + ", too, but " + sender_.name() +
+                                        " is followed: stop one of them");
     return false;
   }
   if (another) wall_poses_.restart();

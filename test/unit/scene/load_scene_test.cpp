@@ -647,7 +647,7 @@ TEST_F(LoadScene, TheYamlNextToItMayEndInYml) {
     load_scene(urdf);
     ADD_FAILURE() << "loaded with both files";
   } catch (const validation::InputError& error) {
-    EXPECT_TRUE(has(error.what(), "scene.urdf: the YAML file next to it: expected one, got .yaml and .yml"));
+    EXPECT_TRUE(has(error.what(), "scene.urdf: YAML file: there are two next to it, .yaml and .yml: remove one"));
   }
   std::filesystem::remove(folder_.path("scene.yaml"));
   Scene scene = load_scene(urdf);
