@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     }
     benchmark::DayOptions options;
     options.hours =
-        config::read_number(YAML::Node(std::string(argv[1])), "command line", "HOURS", validation::positive());
+        config::read_number(YAML::Node(std::string(argv[1])), "command line", "HOURS", validation::positive().in("h"));
     options.scene = argv[2];
     options.motions.assign(argv + 3, argv + argc);
     const benchmark::DayResult r = benchmark::run_day(options, std::cout);

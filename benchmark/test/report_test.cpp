@@ -202,7 +202,7 @@ TEST(Report, ARecordingThatReplayRefusesIsRefusedInOneLineAndLeavesNothing) {
       {"--scene /nowhere.urdf --motion /nowhere.tum",
        "/nowhere.tum: expected a readable motion file (No such file or directory)"},
       {"--scene /nowhere.urdf --motion '" + motion + "'",
-       "command line: --scene: invalid value '/nowhere.urdf': expected an existing file"},
+       "command line: --scene: invalid value '/nowhere.urdf': expected a readable file (No such file or directory)"},
       {"--scene /nowhere.urdf --motion '" + motion + "' --settings /nowhere.yaml",
        "/nowhere.yaml: expected a readable YAML file (No such file or directory)"}};
   for (const auto& [arguments, message] : cases) {

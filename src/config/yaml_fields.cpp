@@ -123,12 +123,9 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      throw validation::InputError(validation::one_line(place(entry.first, where) + ": " + prefix + key + ": " +
-                                                        validation::unknown_key(key, allowed)));
+      validation::refuse_because(place(entry.first, where), prefix + key, validation::unknown_key(key, allowed));
     }
-    if (!seen.insert(key).second)
-      throw validation::InputError(
-          validation::one_line(place(entry.first, where) + ": " + prefix + key + ": given twice"));
+    if (!seen.insert(key).second) validation::refuse_because(place(entry.first, where), prefix + key, "given twice");
   }
 }
 
@@ -156,7 +153,8 @@ YAML::Node load_yaml_file(const std::string& path) {
   if (!file) validation::refuse("", path, std::string("a readable YAML file (") + std::strerror(errno) + ")");
   std::ostringstream text;
   if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // copying an empty file would fail
-  if (file.bad() || text.fail()) validation::refuse("", path, "a readable YAML file");
+  if (file.bad() || text.fail())
+    validation::refuse("", path, std::string("a readable YAML file (") + std::strerror(errno) + ")");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
     if (documents.size() > 1)

@@ -9,22 +9,25 @@
 namespace spring_workbench::contact {
 namespace {
 
-/// The library that makes worlds of a kind, and its function that makes one.
+/// The library that makes worlds of a kind, its function that makes one, and what it is built on.
 struct Engine {
   const char* library;
   const char* function;
+  const char* base;
 };
 
-constexpr Engine fcl = {"libspring_workbench_collision_engine.so", "spring_workbench_new_collision_world"};
-constexpr Engine bullet = {"libspring_workbench_rigid_bodies_engine.so", "spring_workbench_new_rigid_world"};
+constexpr Engine fcl = {"libspring_workbench_collision_engine.so", "spring_workbench_new_collision_world", "FCL"};
+constexpr Engine bullet = {"libspring_workbench_rigid_bodies_engine.so", "spring_workbench_new_rigid_world", "Bullet"};
 
 /// Opens the library, which then stays open. It is looked for where this code's own run path says.
 void* find_function(const Engine& engine, const scene::Scene& scene) {
   void* library = dlopen(engine.library, RTLD_NOW | RTLD_LOCAL);
   void* function = library == nullptr ? nullptr : dlsym(library, engine.function);
   if (function == nullptr) {
-    const char* mode = scene.contact == scene::ContactMode::dynamic ? "dynamic" : "stop";
-    validation::refuse("", "contact", mode, std::string("a mode whose engines this build has (") + dlerror() + ")");
+    const std::string mode = scene.contact == scene::ContactMode::dynamic ? "dynamic" : "stop";
+    validation::refuse_because("", "contact",
+                               "mode '" + mode + "' is not available: it needs " + engine.base +
+                                   ", which was not found when this was built (" + dlerror() + "); use contact: none");
   }
   return function;
 }

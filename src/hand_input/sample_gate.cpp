@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "constants.h"
-#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::hand_input {
 namespace {
@@ -42,43 +41,37 @@ std::string to_string(GateResult result) {
 std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings) {
   const auto& p = sample.p;
   const auto& q = sample.q;
-  std::ostringstream stamp, position, rotation;
-  stamp << sample.t << " s";
-  position << "(" << p.x() << ", " << p.y() << ", " << p.z() << ")";
-  rotation << "(" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << ")";
-  const auto invalid = [](const std::string& field, const std::string& rule, const std::ostringstream& given) {
-    return validation::invalid_value("", field, given.str(), rule);
-  };
+  const std::string stamp = "stamp " + text(sample.t) + " s ";
+  const std::string position = "position (" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") m ";
+  const std::string rotation =
+      "rotation (" + text(q.x()) + ", " + text(q.y()) + ", " + text(q.z()) + ", " + text(q.w()) + ") ";
+  const std::string begin = to_string(result) + ": ";
   switch (result) {
     case GateResult::accepted:
     case GateResult::relocation:
       return "";
     case GateResult::not_finite:
-      if (!std::isfinite(sample.t)) return invalid("stamp", "a finite number", stamp);
-      return p.allFinite() ? invalid("rotation", "finite numbers", rotation)
-                           : invalid("position", "finite numbers", position);
+      return begin + (!std::isfinite(sample.t) ? stamp : p.allFinite() ? rotation : position) + "is not finite";
     case GateResult::bad_quaternion:
-      return invalid("rotation", "a length of 1 within quaternion_tolerance = " + text(settings.quaternion_tolerance),
-                     rotation);
+      return begin + rotation + "has a length that differs from 1 by more than input.quaternion_tolerance = " +
+             text(settings.quaternion_tolerance);
     case GateResult::too_far:
-      return invalid("position", "one within max_distance = " + text(settings.max_distance) + " m", position);
+      return begin + position + "is farther from the origin than input.max_distance = " + text(settings.max_distance) +
+             " m";
     case GateResult::not_later:
-      return invalid("stamp", "later than the last one", stamp);
+      return begin + stamp + "is not later than that of the last sample";
     case GateResult::too_close:
-      return invalid("stamp", "at least a quarter of the usual sample interval after the last one", stamp);
+      return begin + stamp + "is less than a quarter of the usual interval after that of the last sample";
     case GateResult::too_fast:
-      return invalid("position", "one within reach of the last at max_speed = " + text(settings.max_speed) + " m/s",
-                     position);
+      return begin + position + "cannot be reached from the last one at input.max_speed = " + text(settings.max_speed) +
+             " m/s";
     case GateResult::turns_too_fast:
-      return invalid("rotation",
-                     "one within reach of the last at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s",
-                     rotation);
+      return begin + rotation +
+             "cannot be reached from the last one at input.max_turn_rate = " + text(settings.max_turn_rate) + " rad/s";
     case GateResult::out_of_view:
-      return invalid("position",
-                     "one farther than origin_radius = " + text(settings.origin_radius) +
-                         " m from the origin, or the rotation more than origin_angle = " + text(settings.origin_angle) +
-                         " rad from the identity",
-                     position);
+      return begin + position + "is within input.origin_radius = " + text(settings.origin_radius) +
+             " m of the origin and the rotation within input.origin_angle = " + text(settings.origin_angle) +
+             " rad of the identity, which is what trackers send while the sensor is out of view";
   }
   return "";
 }

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/validation/one_line.h"
 #include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::hand_input {
@@ -12,31 +11,26 @@ namespace {
 
 const std::string kGroup = "input";
 
-validation::NumberRule positive_or_infinite() {
-  validation::NumberRule rule = validation::positive();
-  rule.infinity_allowed = true;
-  return rule;
-}
-
 /// A row of the table of settings.
 struct Entry {
   InputDescription description;
   std::function<void(const YAML::Node&, const std::string& where, const std::string& name, InputSettings&)> read;
 };
 
-Entry number(const std::string& key, const std::string& unit, const validation::NumberRule& rule,
-             const std::string& meaning, double InputSettings::*field) {
+Entry number(const std::string& key, const char* unit, const validation::NumberRule& rule, const std::string& meaning,
+             double InputSettings::*field) {
   std::ostringstream default_value;
   default_value << InputSettings().*field;
   return {{key, unit, rule.text(), default_value.str(), meaning},
           [=](const auto& node, const auto& where, const auto& name, InputSettings& settings) {
-            settings.*field = config::read_number(node, where, name, rule);
+            settings.*field = config::read_number(node, where, name, rule.in(unit));
           }};
 }
 
 const std::vector<Entry>& entries() {
   using T = InputSettings;
   using validation::between;
+  using validation::positive_or_infinite;
   static const std::vector<Entry> table = {
       number("quaternion_tolerance", "–", between(0.0, 0.99),
              "how far the norm of a quaternion may be from 1; it is then normalised", &T::quaternion_tolerance),
@@ -94,8 +88,7 @@ void set(const std::string& key, const YAML::Node& value, const std::string& whe
     if (entry.description.key == key) return entry.read(value, where, name, settings);
     known.push_back(kGroup + "." + entry.description.key);
   }
-  throw validation::InputError(validation::one_line(validation::prefix(config::place(value, where), name) +
-                                                    validation::unknown_key(name, known)));
+  validation::refuse_because(config::place(value, where), name, validation::unknown_key(name, known));
 }
 
 /// Sets `value` under `key`; a map is a group of further keys.

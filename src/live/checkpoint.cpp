@@ -69,7 +69,7 @@ void Checkpoint::resume(const std::string& text, const std::string& where,
     map = YAML::Load(text);
   } catch (const YAML::Exception&) {  // truncated: not a map
   }
-  if (!map.IsMap()) validation::refuse("", where, "a complete checkpoint");
+  if (!map.IsMap()) validation::refuse_because("", where, "not a complete checkpoint");
   const std::string given = config::read_string(map["given_scene"], where, "given_scene");
   if (given != given_scene_)
     validation::refuse(where, "given_scene", given, "the scene of this start, " + given_scene_);

@@ -10,15 +10,15 @@
 namespace spring_workbench::motion {
 
 void validate(const ExternalWrench& sample, const std::string& where) {
-  const auto check = [&](const std::string& field, const Vector3d& values, double most) {
+  const auto check = [&](const std::string& field, const Vector3d& values, double most, const char* unit) {
     const char* const axes[] = {"x", "y", "z"};
     for (int i = 0; i < 3; ++i) {
-      validation::check_number(where, field + "." + axes[i], values[i], validation::between(-most, most));
+      validation::check_number(where, field + "." + axes[i], values[i], validation::between(-most, most).in(unit));
     }
   };
-  validation::check_number(where, "t", sample.t, validation::between(-farthest_time, farthest_time));
-  check("force", sample.wrench.force, largest_force);
-  check("torque", sample.wrench.moment, largest_moment);
+  validation::check_number(where, "t", sample.t, validation::between(-farthest_time, farthest_time).in("s"));
+  check("force", sample.wrench.force, largest_force, "N");
+  check("torque", sample.wrench.moment, largest_moment, "N·m");
   const std::vector<std::string> axes = validation::names<ExternalWrench::Axes>();
   if (static_cast<std::size_t>(sample.axes) >= axes.size()) {
     validation::refuse(where, "axes", "one of " + validation::join(axes));

@@ -13,12 +13,12 @@ namespace spring_workbench::motion {
 namespace {
 
 void check_sample(const PoseSample& sample) {
-  validation::check_number("tracked pose", "t", sample.t, validation::between(-farthest_time, farthest_time));
+  validation::check_number("tracked pose", "t", sample.t, validation::between(-farthest_time, farthest_time).in("s"));
   const std::string where = "tracked pose at t = " + std::to_string(sample.t) + " s";
   const char* const axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
     validation::check_number(where, axes[i], sample.X.translation()[i],
-                             validation::between(-farthest_position, farthest_position));
+                             validation::between(-farthest_position, farthest_position).in("m"));
   }
   const Matrix3d R = sample.X.linear();
   const double defect = (R.transpose() * R - Matrix3d::Identity()).norm();
@@ -41,7 +41,7 @@ Vector3d displacement(const PoseSample& from, const PoseSample& to) {
 }  // namespace
 
 PoseTrack::PoseTrack(double dropout_after) : dropout_after_(dropout_after), current_(RigidTransform::Identity()) {
-  validation::check_number("tracked pose", "dropout_after", dropout_after, validation::positive_or_infinite());
+  validation::check_number("tracked pose", "dropout_after", dropout_after, validation::positive_or_infinite().in("s"));
 }
 
 bool PoseTrack::push(const PoseSample& sample) {

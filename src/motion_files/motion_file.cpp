@@ -48,14 +48,14 @@ struct Line {
 };
 
 Line read_line(const std::vector<std::string>& words, const std::string& where) {
-  const auto number = [&](std::size_t i, double largest) {
-    return static_cast<double>(read_word(words[i], where, kFields[i], validation::between(-largest, largest)));
+  const auto number = [&](std::size_t i, double largest, const char* unit) {
+    return static_cast<double>(read_word(words[i], where, kFields[i], validation::between(-largest, largest).in(unit)));
   };
   Line line;
-  line.stamp = read_word(words[0], where, kFields[0], validation::between(-farthest_time, farthest_time));
+  line.stamp = read_word(words[0], where, kFields[0], validation::between(-farthest_time, farthest_time).in("s"));
   Vector3d p;
-  for (std::size_t i = 0; i < 3; ++i) p[static_cast<Eigen::Index>(i)] = number(i + 1, farthest_position);
-  const Quaterniond q(number(7, 2.0), number(4, 2.0), number(5, 2.0), number(6, 2.0));
+  for (std::size_t i = 0; i < 3; ++i) p[static_cast<Eigen::Index>(i)] = number(i + 1, farthest_position, "m");
+  const Quaterniond q(number(7, 2.0, ""), number(4, 2.0, ""), number(5, 2.0, ""), number(6, 2.0, ""));
   validation::check_number(where, "norm of qx qy qz qw", q.norm(), validation::between(0.5, 2.0));
   line.sample.X = make_transform(p, q);
   line.sample.quaternion_norm = q.norm();
@@ -66,11 +66,15 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
   return line;
 }
 
+[[noreturn]] void refuse_unreadable(const std::string& path) {
+  validation::refuse("", path, std::string("a readable motion file (") + std::strerror(errno) + ")");
+}
+
 }  // namespace
 
 std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
   std::ifstream file(path);
-  if (!file) validation::refuse("", path, std::string("a readable motion file (") + std::strerror(errno) + ")");
+  if (!file) refuse_unreadable(path);
   std::vector<motion::StylusSample> samples;
   std::size_t fields = 0;
   long double first_stamp = 0.0L;
@@ -99,7 +103,7 @@ std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
     samples.push_back(line.sample);
     samples.back().t = whole_nanoseconds(line.stamp - first_stamp);
   }
-  if (file.bad()) validation::refuse("", path, "a readable motion file");
+  if (file.bad()) refuse_unreadable(path);
   const std::string none = is_bag ? "got a bag: give it as --bag" : "got none";
   if (samples.empty()) validation::refuse("", path, "lines of t x y z qx qy qz qw [button], " + none);
   return samples;

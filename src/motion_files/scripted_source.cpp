@@ -14,7 +14,7 @@ motion::StylusSample read_waypoint(const YAML::Node& node, const std::string& pa
   config::check_keys(node, path, name + ".", {"t", "pose", "button"});
   motion::StylusSample waypoint;
   waypoint.t = config::read_required(node, path, name + ".", "t", config::read_number,
-                                     validation::between(-farthest_script_time, farthest_script_time));
+                                     validation::between(-farthest_script_time, farthest_script_time).in("s"));
   waypoint.X = config::read_required(node, path, name + ".", "pose", config::read_pose);
   if (node["button"]) waypoint.button = config::read_bool(node["button"], path, name + ".button");
   return waypoint;
@@ -25,7 +25,7 @@ motion::StylusSample read_waypoint(const YAML::Node& node, const std::string& pa
 ScriptedSource::ScriptedSource(const std::string& path) {
   const YAML::Node script = config::load_yaml_file(path);
   config::check_keys(script, path, "", {"rate", "waypoints"});
-  rate_ = config::read_required(script, path, "", "rate", config::read_number, validation::between(0.1, 1e4));
+  rate_ = config::read_required(script, path, "", "rate", config::read_number, validation::between(0.1, 1e4).in("Hz"));
   const YAML::Node list = script["waypoints"];
   const std::string rule = "a list of at least one {t, pose, button}";
   if (!list.IsDefined()) validation::refuse_missing(config::place(script, path), "waypoints", rule);

@@ -138,7 +138,9 @@ PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, doub
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double turned = svd.singularValues()[5] / std::sqrt(static_cast<double>(n));
-  if (!(turned > min_turning)) validation::refuse(kWhere, "poses", "ones turned by at least 20 degrees about two axes");
+  if (!(turned > min_turning))
+    validation::refuse_because(kWhere, "poses",
+                               "turned too little: tilt the stylus by at least 20 degrees about two axes");
   const Eigen::VectorXd x = svd.solve(b);
   PivotCalibration result{x.head<3>(), x.tail<3>(), std::sqrt((A * x - b).squaredNorm() / static_cast<double>(n))};
   if (!(result.rms <= largest_rms)) {

@@ -27,7 +27,7 @@ bool ShapeModel::rechart(StrainVector&, StrainVector&) const { return false; }
 
 std::shared_ptr<const ShapeModel> make_shape_model(ShapeKind kind, double length,
                                                    std::optional<double> slope_stiffness) {
-  validation::check_number("fork", "length", length, validation::positive());
+  validation::check_number("fork", "length", length, validation::positive().in("m"));
   switch (kind) {
     case ShapeKind::constant:
       return std::make_shared<StrainRod>(length, 1);

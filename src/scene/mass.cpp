@@ -84,15 +84,16 @@ RigidMass repaired_mass(const RigidMass& given, const std::vector<geometry::Shap
     const RigidMass solid = solid_mass(shapes, density, where, warnings);
     if (!(solid.mass > 0.0))
       validation::refuse(where, "mass", "0",
-                         "a number > 0, since the movable body has no shape with a volume to compute it from");
+                         "a number > 0 (the movable body has no solid shape from which to compute it)");
     return solid;
   }
   const std::string defect = inertia_defect(given, shapes);
   if (defect.empty()) return given;
   const RigidMass solid = solid_mass(shapes, density, where, warnings);
   if (!(solid.mass > 0.0))
-    validation::refuse(where, "inertia",
-                       "a possible one, since the body has no shape to compute it from, got one that " + defect);
+    validation::refuse_because(
+        where, "inertia",
+        defect + ", and the body has no shape from which to compute another: correct it or add a shape");
   warnings.push_back(where + ": inertia " + defect + "; the inertia of its shape is used instead");
   return {given.mass, given.centre, solid.inertia * (given.mass / solid.mass)};
 }

@@ -105,7 +105,9 @@ fs::path path_of(const std::string& name, const std::string& folder, const std::
 void check_folder(const fs::path& path, const std::vector<std::string>& roots, const std::string& name,
                   const std::string& where, const std::string& key) {
   if (roots.empty() || is_in_a_root(path, roots) || is_in_a_package(path)) return;
-  validation::refuse(where, key, name, "a file in a ROS package or in one of the folders " + validation::join(roots));
+  validation::refuse(
+      where, key, name,
+      "a file in a ROS package or in one of the folders " + validation::join(roots) + " (scene_roots can name more)");
 }
 
 }  // namespace
@@ -114,16 +116,20 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
                          const std::string& where, const std::string& key) {
   const std::string path = path_of(name, folder, where, key).string();
   std::error_code error;
-  if (name.empty()) validation::refuse(where, key, name, "an existing file");
+  if (name.empty()) validation::refuse(where, key, name, "a path");
   check_folder(path, roots, name, where,
                key);  // checked first, so that the message does not reveal which files exist elsewhere
-  if (const std::string absolute = fs::absolute(path).lexically_normal(); !fs::is_regular_file(path, error))
-    refuse_missing(where, key, name, "an existing file" + (absolute == name ? "" : " (looked for " + absolute + ")"));
+  const std::string absolute = fs::absolute(path).lexically_normal().string();
+  if (const fs::file_status status = fs::status(path, error); !fs::is_regular_file(status)) {
+    const char* const kind = fs::is_directory(status) ? "Is a directory" : "not a regular file";
+    const std::string reason = error ? error.message() : kind;
+    refuse_missing(where, key, name, "a readable file (" + (absolute == name ? "" : absolute + ": ") + reason + ")");
+  }
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > max_bytes) {
     validation::refuse(where, key, name, "a file of at most " + std::to_string(max_bytes >> 20) + " MiB");
   }
-  return fs::absolute(path).lexically_normal().string();
+  return absolute;
 }
 
 std::string resolve_new_file(const std::string& name, const std::vector<std::string>& roots, const std::string& where,

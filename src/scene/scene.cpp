@@ -181,7 +181,7 @@ void set_mass(Body& body, double mass, const std::string& where) {
     const RigidMass solid = solid_mass(body.collision.empty() ? body.visual : body.collision, 1.0, where, warnings);
     if (!(solid.mass > 0.0)) {
       validation::refuse(where, "mass", validation::number_text(mass),
-                         "0, since " + body.name + " has no volume, so its inertia is not known");
+                         "0 (" + body.name + " has no volume from which to compute an inertia)");
     }
     m.inertia_O = mass / solid.mass * solid.inertia;
   } else {

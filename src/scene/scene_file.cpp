@@ -25,8 +25,8 @@ struct Fields {
 void read_material(const Fields& field, Material& material) {
   field("friction", material.friction, config::read_number, validation::not_negative());
   field("restitution", material.restitution, config::read_number, validation::between(0.0, 1.0));
-  field("density", material.density, config::read_number, validation::positive());
-  field("material_stiffness", material.stiffness, config::read_number, validation::positive_or_infinite());
+  field("density", material.density, config::read_number, validation::positive().in("kg/m³"));
+  field("material_stiffness", material.stiffness, config::read_number, validation::positive_or_infinite().in("N/m"));
 }
 
 ObjectEntry read_object(const YAML::Node& map, const std::string& path, const std::string& prefix,
@@ -67,9 +67,9 @@ Target read_target(const YAML::Node& map, const std::string& path, const std::st
   Target target;
   target.X_WL = config::read_required(map, path, prefix, "pose", config::read_pose);
   const Fields field{map, path, prefix};
-  field("position_tolerance", target.position_tolerance, config::read_number, validation::positive());
-  field("angle_tolerance", target.angle_tolerance, config::read_number, validation::positive());
-  field("max_force", target.max_force, config::read_number, validation::positive_or_infinite());
+  field("position_tolerance", target.position_tolerance, config::read_number, validation::positive().in("m"));
+  field("angle_tolerance", target.angle_tolerance, config::read_number, validation::positive().in("rad"));
+  field("max_force", target.max_force, config::read_number, validation::positive_or_infinite().in("N"));
   if (map["grips"].IsDefined()) target.p_LG = read_grips(map["grips"], path, prefix + "grips");
   return target;
 }
@@ -88,8 +88,8 @@ std::vector<RigidTransform> read_handles(const YAML::Node& start, const std::str
 void read_settings(const YAML::Node& map, const std::string& path, SceneFile& file) {
   Scene& scene = file.settings;
   const Fields field{map, path, ""};
-  field("gravity", scene.gravity, config::read_number, validation::not_negative());
-  field("bench_height", scene.bench_height, config::read_number, validation::any_number());
+  field("gravity", scene.gravity, config::read_number, validation::not_negative().in("m/s²"));
+  field("bench_height", scene.bench_height, config::read_number, validation::any_number().in("m"));
   field("force_scale", scene.force_scale, config::read_number, validation::positive());
   field("contact", scene.contact, config::read_named<ContactMode>);
   const std::vector<std::string> tools = {"spring", "spring_fork", "spring_probe", "direct", "ray"};
@@ -126,7 +126,8 @@ std::string yaml_next_to(const std::string& urdf) {
   const auto exists = [](const fs::path& path) { return fs::symlink_status(path).type() != fs::file_type::not_found; };
   const fs::path yaml = fs::path(urdf).replace_extension(".yaml"), yml = fs::path(urdf).replace_extension(".yml");
   if (!exists(yml)) return yaml.string();
-  if (exists(yaml)) validation::refuse(urdf, "the YAML file next to it", "one, got .yaml and .yml");
+  if (exists(yaml))
+    validation::refuse_because(urdf, "YAML file", "there are two next to it, .yaml and .yml: remove one");
   return yml.string();
 }
 

@@ -61,7 +61,8 @@ void add_geometry(TiXmlElement& parent, const geometry::Geometry& geometry, cons
     of.SetAttribute("length", text_of(cylinder->length));
   } else {
     const geometry::TriangleMesh& mesh = *std::get<geometry::MeshPtr>(geometry);
-    if (mesh.uri.empty()) validation::refuse("", "mesh of " + body, "one that was read from a file");
+    if (mesh.uri.empty())
+      validation::refuse_because("", "mesh of " + body, "was not read from a file, so no URDF can refer to it");
     TiXmlElement& of = add(kind, "mesh");
     of.SetAttribute("filename", mesh.uri);
     of.SetAttribute("scale", text_of(mesh.scale));

@@ -114,7 +114,7 @@ class BodyBuilder {
     const std::vector<geometry::Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
     const RigidMass mass = repaired_mass(given_L, shapes, body.material.density, where, warnings_);
     if (body.collision.empty()) warnings_.push_back(where + ": no collision shape: the body touches nothing");
-    validation::check_number(where, "mass", mass.mass, validation::between(0.0, max_mass));
+    validation::check_number(where, "mass", mass.mass, validation::between(0.0, max_mass).in("kg"));
     body.mass_properties = {mass.mass, mass.inertia};
     body.X_OL.translation() = -mass.centre;
     body.X_WO = body.X_WO * body.X_OL.inverse();
@@ -181,18 +181,18 @@ class BodyBuilder {
       case urdf::Geometry::BOX: {
         const urdf::Vector3& d = static_cast<const urdf::Box&>(geometry).dim;
         for (const double edge : {d.x, d.y, d.z})
-          validation::check_number(where, "box size", edge, validation::positive());
+          validation::check_number(where, "box size", edge, validation::positive().in("m"));
         return geometry::Box{Vector3d(d.x, d.y, d.z)};
       }
       case urdf::Geometry::SPHERE: {
         const double radius = static_cast<const urdf::Sphere&>(geometry).radius;
-        validation::check_number(where, "sphere radius", radius, validation::positive());
+        validation::check_number(where, "sphere radius", radius, validation::positive().in("m"));
         return geometry::Sphere{radius};
       }
       case urdf::Geometry::CYLINDER: {
         const auto& c = static_cast<const urdf::Cylinder&>(geometry);
-        validation::check_number(where, "cylinder radius", c.radius, validation::positive());
-        validation::check_number(where, "cylinder length", c.length, validation::positive());
+        validation::check_number(where, "cylinder radius", c.radius, validation::positive().in("m"));
+        validation::check_number(where, "cylinder length", c.length, validation::positive().in("m"));
         return geometry::Cylinder{c.radius, c.length};
       }
       case urdf::Geometry::MESH:

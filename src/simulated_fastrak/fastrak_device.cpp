@@ -41,7 +41,8 @@ bool read_arguments(const std::string& text, std::vector<double>& numbers) {
 PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples) {
   for (const motion::StylusSample& sample : samples) {
     if (!(sample.X.translation().cwiseAbs().maxCoeff() < farthest_played)) {
-      validation::refuse("motion", "position at " + std::to_string(sample.t) + " s", "one within 9.99 m of the origin");
+      validation::refuse("motion", "position at " + std::to_string(sample.t) + " s",
+                         "a point within 9.99 m of the origin");
     }
     if (samples_.empty() || sample.t > samples_.back().t) samples_.push_back(sample);
   }

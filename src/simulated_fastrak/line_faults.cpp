@@ -33,7 +33,8 @@ Fault parse_fault(const std::string& text) {
     if (key == "rate") {
       fault.rate = config::read_number(value, kWhere, name, validation::between(0.0, 1.0));
     } else if (key == "from" || key == "until") {
-      (key == "from" ? fault.from : fault.until) = config::read_number(value, kWhere, name, validation::not_negative());
+      (key == "from" ? fault.from : fault.until) =
+          config::read_number(value, kWhere, name, validation::not_negative().in("s"));
     } else {
       validation::refuse(kWhere, "--fault", field, "rate=, from= or until=");
     }

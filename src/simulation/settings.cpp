@@ -7,7 +7,6 @@
 
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/stepping/step_control.h"
-#include "spring_workbench/validation/one_line.h"
 #include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::simulation {
@@ -42,12 +41,13 @@ std::string text_of(double value) { return std::isinf(value) ? ".inf" : validati
 template <typename T>
 Field number(const char* key, const char* unit, const NumberRule& rule, const char* meaning, T& value,
              const char* absent = "") {
+  const NumberRule in_unit = rule.in(unit);
   return {{key, "double", unit, meaning},
           [=] { return rule.text(); },
           [=, &value] { return given(value) ? text_of(*given(value)) : absent; },
-          [=, &value](const auto& node, const auto& where) { value = config::read_number(node, where, key, rule); },
+          [=, &value](const auto& node, const auto& where) { value = config::read_number(node, where, key, in_unit); },
           [=, &value](const auto& where) {
-            if (given(value)) validation::check_number(where, key, *given(value), rule);
+            if (given(value)) validation::check_number(where, key, *given(value), in_unit);
           }};
 }
 
@@ -255,8 +255,7 @@ const Field& find_field(const std::vector<Field>& table, const std::string& key,
   if (found != table.end()) return *found;
   std::vector<std::string> known;
   for (const Field& field : table) known.push_back(field.about.key);
-  throw validation::InputError(
-      validation::one_line(validation::prefix(where, key) + validation::unknown_key(key, known)));
+  validation::refuse_because(where, key, validation::unknown_key(key, known));
 }
 
 /// Refuses combinations of values that are each valid but incompatible.
@@ -269,8 +268,8 @@ void check_together(const S& settings, const std::string& where) {
         "equal ratios of stretch, bend and torsion if the damping law is modal (the law per_dof takes three)");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    throw validation::InputError(validation::prefix(settings.grasp.tip_place, "grasp.tip_in_object") +
-                                 "needs start.follow: true, so that the object can move to it");
+    validation::refuse_because(settings.grasp.tip_place, "grasp.tip_in_object",
+                               "needs start.follow: true, so that the object can move to it");
   }
 }
 
@@ -304,7 +303,7 @@ void validate(const ObjectEdit& edit) {
   }
   if (edit.X_WL && !edit.X_WL->matrix().allFinite()) validation::refuse("", "pose", "a finite pose");
   if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse("", "pose", "a pose to move to");
-  validation::check_number("", "mass", edit.mass, between(0.0, 1e12));
+  validation::check_number("", "mass", edit.mass, between(0.0, 1e12).in("kg"));
   validation::check_number("", "friction", edit.friction, validation::not_negative());
 }
 
@@ -326,7 +325,7 @@ void apply_settings(const YAML::Node& values, const std::string& where, Simulati
   std::set<std::string> seen;
   for (const auto& [key, node] : flat) {
     const std::string place = config::place(node, where);
-    if (!seen.insert(key).second) throw validation::InputError(validation::prefix(place, key) + "given twice");
+    if (!seen.insert(key).second) validation::refuse_because(place, key, "given twice");
     find_field(table, key, place).read(node, where);
   }
   settings = changed;

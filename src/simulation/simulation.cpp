@@ -72,7 +72,7 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   const tools::GraspSettings& grasp = settings.grasp;
   if (!grasp.object.empty()) scene::movable_body(scene, grasp.object, grasp.object_place, "grasp.object");
   if (grasp.object.empty() && grasp.start_follow)
-    validation::refuse("", "start.follow", "grasp.object as well, the object that moves");
+    validation::refuse_because("", "start.follow", "needs grasp.object, the object to move");
   return scene;
 }
 
@@ -89,11 +89,11 @@ void check_origin(const std::string& saved, const std::string& present) {
   if (saved == present) return;
   std::istringstream of_saved(saved), of_present(present);
   for (std::string was, is; std::getline(of_present, is);) {
-    if (!std::getline(of_saved, was)) was = "nothing saved";
-    if (was != is) validation::refuse("", "state", "that of a simulation with " + is + ", got " + was);
+    if (!std::getline(of_saved, was)) was = "nothing";
+    if (was != is) validation::refuse_because("", "state", "saved with " + was + ", but this simulation has " + is);
   }
   if (std::string more; std::getline(of_saved, more))
-    validation::refuse("", "state", "that of a simulation without " + more);
+    validation::refuse_because("", "state", "saved with " + more + ", which this simulation does not have");
 }
 
 /// Restores a state with nothing held, no samples, and the objects at rest.
@@ -458,7 +458,7 @@ bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand)
 }
 
 void Simulation::push_edge(double t, motion::ButtonEdge edge, std::size_t hand) {
-  validation::check_number("", "t", t, validation::any_number());
+  validation::check_number("", "t", t, validation::any_number().in("s"));
   impl_->hand(hand).stylus().push(impl_->in_world(t), edge);
 }
 
@@ -480,7 +480,7 @@ double Simulation::next_event_time() const {
 }
 
 AdvanceReport Simulation::advance_to(double t_end) {
-  validation::check_number("", "t_end", t_end, validation::any_number());
+  validation::check_number("", "t_end", t_end, validation::any_number().in("s"));
   AdvanceReport report;
   impl_->requested_time = t_end;
   impl_->advance(impl_->in_world(t_end), report);
@@ -554,14 +554,15 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
   const std::string other = objects.inside_of(*objects.find(name), X_WO);
   if (other.empty()) return;
-  throw validation::InputError("pose: " + name + " would overlap " + other + " by more than 0.1 mm");
+  validation::refuse_because("", "pose", name + " would overlap " + other + " by more than 0.1 mm");
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
   const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.name, "", "name")];
   const std::size_t object = *objects.find(edit.name);
   for (const Hand& hand : hands) {
-    if (hand.carried() == object) throw validation::InputError(edit.name + " is held or pushed: release it first");
+    if (hand.carried() == object)
+      validation::refuse_because("", "name", edit.name + " is held or pushed; release it first");
   }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
   check_place(edit.name, X_WO);

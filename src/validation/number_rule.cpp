@@ -33,14 +33,25 @@ bool NumberRule::allows(double value) const {
 
 std::string NumberRule::text(double value) const {
   constexpr double unbounded = std::numeric_limits<double>::max();
-  if (min > -unbounded && max < unbounded) return "a number between " + number_text(min) + " and " + number_text(max);
+  const bool dimensionless = unit == std::string() || unit == std::string("–");
+  const std::string with_unit = dimensionless ? "" : std::string(" ") + unit;
+  if (min > -unbounded && max < unbounded)
+    return "a number between " + number_text(min) + " and " + number_text(max) + with_unit;
   std::string text = std::isfinite(value) ? "a number" : "a finite number";
   if (min > -unbounded) {
-    text += (min_allowed ? " >= " : " > ") + number_text(min);
+    text += (min_allowed ? " >= " : " > ") + number_text(min) + with_unit;
   } else if (max < unbounded) {
-    text += " <= " + number_text(max);
+    text += " <= " + number_text(max) + with_unit;
+  } else if (!dimensionless) {
+    text += " in" + with_unit;
   }
   return infinity_allowed ? text + ", or .inf" : text;
+}
+
+NumberRule NumberRule::in(const char* unit_of_numbers) const {
+  NumberRule rule = *this;
+  rule.unit = unit_of_numbers;
+  return rule;
 }
 
 std::string prefix(const std::string& where, const std::string& key) {
@@ -60,6 +71,10 @@ void refuse(const std::string& where, const std::string& key, const std::string&
 
 void refuse(const std::string& where, const std::string& key, const std::string& rule) {
   throw InputError(one_line(prefix(where, key) + "expected " + rule));
+}
+
+void refuse_because(const std::string& where, const std::string& key, const std::string& reason) {
+  throw InputError(one_line(prefix(where, key) + reason));
 }
 
 void refuse_missing(const std::string& where, const std::string& key, const std::string& rule) {

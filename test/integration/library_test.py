@@ -68,7 +68,7 @@ class Library(unittest.TestCase):
         if "stop" not in MODES:
             refused = subprocess.run([program, self.box], capture_output=True, text=True, timeout=DEADLINE)
             self.assertEqual(refused.returncode, 2)
-            self.assertRegex(refused.stderr, "contact: invalid value '.*': expected a mode whose engines")
+            self.assertRegex(refused.stderr, "contact: mode '.*' is not available: it needs FCL")
             return
         shutil.move(str(program), str(self.folder / "moved"))  # a program finds the engines wherever it lies
         for mode in MODES:

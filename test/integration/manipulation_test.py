@@ -418,7 +418,7 @@ class Manipulation(unittest.TestCase):
             ("edit_object", ("mass", "box", "", Pose(), NAN, 0.0), ("mass", "nan")),
             ("edit_object", ("friction", "box", "", Pose(), 0.0, -1.0), ("friction", "-1")),
             ("edit_object", ("move", "box", "", Pose(), 0.0, 0.0), ("pose",)),
-            ("edit_object", ("move", "box", "", UPRIGHT, 0.0, 0.0), ("box is held or pushed: release it first",)),
+            ("edit_object", ("move", "box", "", UPRIGHT, 0.0, 0.0), ("name: box is held or pushed; release it first",)),
             ("edit_object", ("add", "box", BRICK, UPRIGHT, 0.0, 0.0), ("name", "box")),
             ("edit_object", ("add", "brick", BRICK, UNDER, 0.0, 0.0), ("brick would overlap the workbench",)),
             ("edit_object", ("add", "brick", "/etc/hostname", UPRIGHT, 0.0, 0.0), ("urdf", "/etc/hostname")),

@@ -99,7 +99,7 @@ class ManyObjects(unittest.TestCase):
         print(text % (count, 1e6 * spent, loop["deadlines missed"], loop["cycles"]))
         self.assertEqual(fork.last.held_object, "box0")
         self.assertEqual(set(lost.values()), {"0"})
-        for faults in (of_input["dropouts"], loop["cycles behind the hands"], loop["time skipped [s]"]):
+        for faults in (of_input["dropouts"], loop["cycles behind the hands"], loop["skipped without input [s]"]):
             self.assertEqual(faults, "0")
         for subscriber in (*subscribers, fork.subscriber, diagnostics.subscriber):
             subscriber.unregister()

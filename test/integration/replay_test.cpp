@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <set>
 #include <string>
 #include <utility>
@@ -50,6 +51,12 @@ TEST_F(Replay, WritesALinePerOutputTimeAndObject) {
     EXPECT_TRUE(std::isfinite(summary[key].as<double>())) << key;
   }
   EXPECT_TRUE(summary["active"].IsSequence() && summary["skipped"].IsSequence());
+  std::string help = run("--help").out;
+  help.erase(0, help.find("JSON"));
+  for (const auto& entry : summary) {
+    const std::regex row("\n  (\\w+, )*" + entry.first.as<std::string>() + "[, ]");
+    EXPECT_TRUE(std::regex_search(help, row)) << "--help does not explain " << entry.first;
+  }
 }
 
 TEST_F(Replay, QuaternionsInAMotionFileAreHeldToTheirTolerance) {
@@ -220,16 +227,16 @@ TEST_F(Replay, BadArgumentsAreRefusedWithOneLine) {
       {good + "again", {"again"}},
       {good + "--set step", {"--set: invalid value 'step': expected key=value"}},
       {good + "--set =3", {"--set: invalid value '=3': expected key=value"}},
-      {good + "--set step=fast", {"command line: step: invalid value 'fast': expected a number between 1e-6 and 1"}},
+      {good + "--set step=fast", {"command line: step: invalid value 'fast': expected a number between 1e-6 and 1 s"}},
       {good + "--set step=nan", {"command line: step: invalid value 'nan': expected"}},
       {good + "--set fork.stiffness.bend=-1", {"fork.stiffness.bend: invalid value '-1': expected"}},
       {good + "--set stepp=1", {"stepp: unknown key; did you mean step?"}},
       {good + "--set rate=0", {"rate: invalid value '0': expected"}},
       {good + "--set integrator=euler", {"integrator: invalid value 'euler': expected one of exponential"}},
       {good + "--set grasp.object=hat", {"command line: grasp.object: invalid value 'hat': expected a movable object"}},
-      {good + "--set start.follow=true", {"start.follow: expected grasp.object as well, the object that moves"}},
+      {good + "--set start.follow=true", {"start.follow: needs grasp.object, the object to move"}},
       {good + "--set start.follow=true --set 'grasp.tip_in_object=0 0 0 0 0 0 1'",
-       {"start.follow: expected grasp.object"}},
+       {"start.follow: needs grasp.object"}},
       {good + "--set 'grasp.tip_in_object=0 0 0 0 0 0 0'", {"grasp.tip_in_object", "0 0 0 0 0 0 0"}},
       {good + "--settings none.yaml", {"none.yaml"}},
       {"--scene none.urdf --motion hand.tum --out run.csv", {"none.urdf"}},

@@ -360,9 +360,9 @@ def test_hands_times_and_names_that_do_not_exist_are_refused():
         with pytest.raises(sw.InputError, match=hand):
             call(5)
     for t in [np.nan, np.inf, -np.inf]:
-        with pytest.raises(sw.InputError, match="t_end: invalid value '.*': expected a finite number$"):
+        with pytest.raises(sw.InputError, match="t_end: invalid value '.*': expected a finite number in s$"):
             simulation.advance_to(t)
-        with pytest.raises(sw.InputError, match="t: invalid value '.*': expected a finite number$"):
+        with pytest.raises(sw.InputError, match="t: invalid value '.*': expected a finite number in s$"):
             simulation.push_button(t, True)
     with pytest.raises(sw.InputError, match=r"^name: invalid value 'bin': expected a movable object of .*\(box\)$"):
         simulation.place({"bin": sw.pose([0.0, 0.0, 1.0]), "box": sw.pose([0.0, 0.0, 5.0])})

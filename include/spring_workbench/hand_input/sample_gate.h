@@ -33,7 +33,7 @@ enum class GateResult {
 inline bool usable(GateResult result) { return result == GateResult::accepted || result == GateResult::relocation; }
 /// Returns the result in words, as in /diagnostics.
 std::string to_string(GateResult result);
-/// Returns a message about a rejected sample, with field, rule and value.
+/// Returns why a sample is rejected: to_string(), then field, value and rule with the name of its setting.
 std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings);
 
 /// Checks whether a sample is a valid pose within range, regardless of earlier samples. Returns accepted, not_finite,

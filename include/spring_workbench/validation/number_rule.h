@@ -14,10 +14,14 @@ struct NumberRule {
   double max = std::numeric_limits<double>::max();
   bool min_allowed = true;        ///< false: must be greater than `min`
   bool infinity_allowed = false;  ///< true: `.inf` is allowed although it is greater than `max`
+  const char* unit = "";          ///< unit of the numbers, for messages; "" or "–": they have none
 
   bool allows(double value) const;
-  /// E.g. "a number > 0", "a number between 0 and 1"; "a finite number > 0" if `value`, which was given, is not finite.
+  /// E.g. "a number > 0", "a number between 0 and 1 s"; "a finite number > 0" if `value`, which was given, is not
+  /// finite.
   std::string text(double value = 0.0) const;
+  /// The same rule for numbers with this unit, which must outlive it.
+  NumberRule in(const char* unit_of_numbers) const;
 };
 inline NumberRule any_number() { return {}; }
 inline NumberRule positive() { return {0.0, std::numeric_limits<double>::max(), false, false}; }
@@ -40,6 +44,8 @@ std::string invalid_value(const std::string& where, const std::string& key, cons
                          const std::string& rule);
 /// The same if there is no value to quote: throws InputError("<where>: <key>: expected <rule>").
 [[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& rule);
+/// If no value is wrong, or no rule says why: throws InputError("<where>: <key>: <reason>").
+[[noreturn]] void refuse_because(const std::string& where, const std::string& key, const std::string& reason);
 /// Throws InputError("<where>: missing required key <key>: <rule>"), or, for an option of the command line (`--name`),
 /// InputError("missing required option <key>: <rule>").
 [[noreturn]] void refuse_missing(const std::string& where, const std::string& key, const std::string& rule);

@@ -24,9 +24,9 @@ std::optional<Options> parse_options(int argc, char** argv) {
           count, words.data(),
           {{"motion", [&](const std::string& path) { options.motions.push_back(path); }},
            config::text_option("link", options.link),
-           config::number_option("rate", validation::between(0.1, 1e4), options.rate),
+           config::number_option("rate", validation::between(0.1, 1e4).in("Hz"), options.rate),
            config::number_option("speed", validation::between(0.01, 1e3), options.speed),
-           config::number_option("duration", validation::not_negative(), options.duration),
+           config::number_option("duration", validation::not_negative().in("s"), options.duration),
            {"switch", add_switch},
            {"fault", [&](const std::string& f) { options.faults.push_back(simulated_fastrak::parse_fault(f)); }},
            config::integer_option("seed", 0, std::numeric_limits<int>::max(), options.seed)})) {

@@ -29,7 +29,7 @@ void apply(const YAML::Node& values, const std::string& where, Options& options)
   YAML::Node settings(YAML::NodeType::Map);
   for (const auto& entry : values) {
     if (entry.first.IsScalar() && entry.first.Scalar() == "rate") {
-      options.rate = config::read_number(entry.second, where, "rate", validation::between(1e-3, 1e6));
+      options.rate = config::read_number(entry.second, where, "rate", validation::between(1e-3, 1e6).in("Hz"));
     } else {
       settings.force_insert(entry.first, entry.second);
     }
@@ -95,8 +95,8 @@ replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [
        [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
 
   --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
-  --motion    a hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints; the
-              time of each starts at its own first sample
+  --motion    a hand: lines of `t x y z qx qy qz qw [button]` (t in s; x, y, z in m; button 0 or 1), or a script
+              (*.yaml) of waypoints; the time of each starts at its own first sample
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus), placed by
               /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; further hands
               from CHILD_2 (stylus_2) and stylus_2/joy, CHILD_3, ..., all that the bag has. If it has ~accepted and
@@ -115,7 +115,7 @@ const char* const output_text =
     R"(Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless
 grasp.object names an object, which the first hand then holds; the buttons are then ignored.
 
-RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
+RUN.csv, a line per output time and movable object [s, -, m, -, m/s, rad/s], of its centre of mass in world:
   t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
 RUN.fork.csv, a line per output time and hand:
   t,fork,tool,held                          [s], the hand's fork (fork, fork_2, ...), its tool, the object held
@@ -132,16 +132,27 @@ RUN.fork.csv, a line per output time and hand:
   material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
   error_bound                               [m] of the position; inf: none
 
-The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
-samples, samples_rejected (by input.*; reasons in rejected), dropouts (gaps over dropout_after), reacquisitions, losses
-(of the hand), position_error [m] and angle_error [rad] (largest estimate of a step's local error), local_error_bound
-[m] (null: none), error_bound [m] and angle_error_bound [rad] (largest of the run; null: none),
-integrations_without_bound, energy_balance [J] (added by integration beyond hand, gravity, damping and contact),
-stiffest_omega_dt, contacts (pairs, at the output times), collision_queries, substeps (steps discarded and repeated as
-shorter ones), stops (at the end of the fork's range), steps_fallback (integrations by an L-stable rule), steps_blocked
-(no motion admitted), steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by services and
-panels), changes_made_again (repeated, not loaded), changes_mismatched (with another result), state_hash, active,
-skipped.
+The last line on standard output is one JSON object (null: no number):
+  steps, simulated_time, outputs            [-, s, -] what was simulated and written
+  wall_time, time_per_step                  [s, s] what it took
+  samples, samples_rejected, rejected       of the hands; rejected by input.*; the same by reason
+  dropouts, losses, reacquisitions          gaps over dropout_after, and over input.loss_timeout; returns of the hand
+  position_error, angle_error               [m, rad] largest estimate of a step's local error
+  local_error_bound                         [m] largest estimated bound on it
+  error_bound, angle_error_bound            [m, rad] largest estimated bound on the error of the run
+  integrations_without_bound                integrations without such an estimate
+  energy_balance                            [J] added by integration beyond hand, gravity, damping and contact
+  stiffest_omega_dt                         largest product of the stiffest mode's angular frequency and the step
+  contacts, collision_queries               pairs that began to touch, as seen at the output times; queries for contacts
+  substeps                                  steps discarded and repeated as shorter ones
+  stops                                     steps in which the fork reached the end of its range
+  steps_fallback                            integrations by an L-stable rule, because the integrator could not
+  steps_blocked, steps_unsolved             steps in which contact admitted no motion; in which it missed its law
+  steps_rejected                            steps without a usable result: the fork was rigid, or the object blocked
+  time_lost                                 [s] during which an object did not follow its equation of motion
+  changes                                   changes by services and panels that the bag has
+  changes_made_again, changes_mismatched    of these repeated, not loaded; with another result than recorded
+  state_hash, active, skipped               of the final state; the subsystems that ran; those that did not
 Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.
 )";
 

@@ -15,7 +15,7 @@ diagnostic_msgs::DiagnosticStatus LostMessages::report(const std::string& name) 
     lost += count;
   }
   if (lost > std::exchange(reported_, lost)) {
-    status.raise(diagnostic_msgs::DiagnosticStatus::WARN, "messages were lost: a subscriber's queue was full");
+    status.warn("messages were lost: a subscriber's queue was full");
   }
   return status.status();
 }

@@ -16,4 +16,9 @@ void Rejections::add(const std::string& reason, const std::string& line) {
   ROS_WARN_STREAM(line << "; rejected");
 }
 
+void Rejections::add_loop_stalled(const std::string& place) {
+  add("the loop is stalled",
+      place + "the physics loop is busy, and its queue is full (see \"physics loop\" on /diagnostics)");
+}
+
 }  // namespace spring_workbench::ros_common

@@ -70,16 +70,13 @@ void WrenchInput::on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& 
   } catch (const validation::InputError& error) {
     return rejections_.add("invalid value", error.what());
   }
-  if (sensor.came.is_full()) {
-    return rejections_.add("the loop is stalled", sensor.topic + ": the loop is stalled and accepts no input");
-  }
+  if (sensor.came.is_full()) return rejections_.add_loop_stalled(sensor.topic + ": ");
   event.stamp = local_stamp(sensor, message.header.stamp);
   sensor.came.put(event);
   wake_();
 }
 
 void WrenchInput::report(int timeouts, std::vector<diagnostic_msgs::DiagnosticStatus>& statuses) {
-  using diagnostic_msgs::DiagnosticStatus;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (messages_ == 0 && timeouts == 0) return;
   ros_common::DiagnosticStatusBuilder status(name_ + ": external wrench", "force sensor");
@@ -90,10 +87,10 @@ void WrenchInput::report(int timeouts, std::vector<diagnostic_msgs::DiagnosticSt
     rejected += count;
   }
   if (timeouts > std::exchange(reported_timeouts_, timeouts)) {
-    status.raise(DiagnosticStatus::WARN, "no external wrench arrived in time, so it was set to zero");
+    status.warn("no external wrench arrived in time, so it was set to zero");
   }
   if (const std::size_t before = std::exchange(reported_rejected_, rejected); rejected > before) {
-    status.raise(DiagnosticStatus::WARN, ros_common::increase("external wrenches rejected", before, rejected));
+    status.warn(ros_common::increase("external wrenches rejected", before, rejected));
   }
   statuses.push_back(status.status());
 }

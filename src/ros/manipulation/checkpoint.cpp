@@ -65,7 +65,7 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
   std::string text;
   try {
     if (!from_file && kept.getType() != XmlRpc::XmlRpcValue::TypeString)
-      validation::refuse("", where, "a text that this node wrote");
+      validation::refuse_because("", where, "not a checkpoint of this node");
     text = from_file ? file_->read() : static_cast<std::string>(kept);
     if (text.empty()) return;
     on_master_.resume(text, where, scene_roots);

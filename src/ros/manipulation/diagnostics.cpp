@@ -80,7 +80,7 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
                  "two nodes publish the stylus: using " + input.sender + ", ignoring " + input.other_sender);
   }
   if (hand.tracker_moves > last.hand.tracker_moves)
-    status.raise(DiagnosticStatus::WARN, "the tracker's frame was moved: the hand is re-acquired");
+    status.warn("the tracker's frame was moved: the hand is re-acquired");
   std::vector<std::string> rejected;
   for (const auto& [reason, count] : input.rejected) {
     status.add("rejected: " + reason, count);
@@ -94,17 +94,18 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   }
   const double silence = now - hand.newest_arrival;
   status.add("time since newest sample [s]", silence);
-  if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand stays at rest");
+  if (silence > dropout_after_)
+    status.warn("no samples: the hand stays at rest; is the tracker on, and the sensor in view?");
   if (hand.reacquisition.losses > last.hand.reacquisition.losses) {
-    status.raise(DiagnosticStatus::WARN, "the hand was lost");
+    status.warn("the hand was lost");
     ROS_WARN_STREAM(what << ": no sample for input.loss_timeout: the hand was lost");
   }
   if (hand.gate.dropouts > last.hand.gate.dropouts) {
     const std::string complaint = complaint_about_gaps(hand.gate, dropout_after_);
     const std::string counted = increase("dropouts", last.hand.gate.dropouts, hand.gate.dropouts);
-    status.raise(DiagnosticStatus::WARN, complaint.empty() ? counted : complaint);
+    status.warn(complaint.empty() ? counted : complaint);
   }
-  if (!rejected.empty()) status.raise(DiagnosticStatus::WARN, "samples rejected: " + validation::join(rejected));
+  if (!rejected.empty()) status.warn("samples rejected: " + validation::join(rejected));
   return status.status();
 }
 
@@ -124,7 +125,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("collision_queries", total.collision_queries)
       .add("time_lost [s]", total.time_lost)
       .add("error_bound [m]", total.error_bound.value_or(std::numeric_limits<double>::infinity()))
-      .add("time skipped [s]", loop.time_skipped)
+      .add("skipped without input [s]", loop.time_skipped)
       .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
       .add("waits for unsent messages", loop.waits)
@@ -132,23 +133,22 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("real-time priority", loop.realtime_priority);
   status.add("time since the master's last reply [s]", loop.master_silence);
   if (loop.master_silence > master_timeout) {
-    status.raise(DiagnosticStatus::WARN,
-                 "the ROS master does not answer: current connections stay, new ones are impossible");
+    status.warn("the ROS master does not answer: current connections stay, new ones are impossible");
   }
-  if (!loop.checkpoint_error.empty()) status.raise(DiagnosticStatus::WARN, loop.checkpoint_error);
+  if (!loop.checkpoint_error.empty()) status.warn(loop.checkpoint_error);
   if (total.steps_rejected > last_loop_.advance.steps_rejected) {
     status.raise(DiagnosticStatus::ERROR,
                  increase("steps rejected", last_loop_.advance.steps_rejected, total.steps_rejected) +
-                     ": no finite result in range");
+                     ": no usable result, so the fork was rigid or, in contact, the object stood still: reduce step");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed)
-    status.raise(DiagnosticStatus::WARN,
-                 increase("deadlines missed", last_loop_.deadlines_missed, loop.deadlines_missed));
-  if (loop.waits > last_loop_.waits) status.raise(DiagnosticStatus::WARN, "the loop waits: publishing takes too long");
+    status.warn(increase("deadlines missed", last_loop_.deadlines_missed, loop.deadlines_missed));
+  if (loop.waits > last_loop_.waits)
+    status.warn("the loop waits, because publishing takes too long: reduce rate or subscribers");
   if (loop.time_skipped > last_loop_.time_skipped)
-    status.raise(DiagnosticStatus::WARN, increase("time skipped [s]", last_loop_.time_skipped, loop.time_skipped));
+    status.warn(increase("skipped without input [s]", last_loop_.time_skipped, loop.time_skipped));
   if (loop.cycles_behind > last_loop_.cycles_behind)
-    status.raise(DiagnosticStatus::WARN, "behind: the simulation is slower than the motion of the hands");
+    status.warn("behind the hands: samples are dropped; use larger steps, a softer fork or fewer contacts");
   return status.status();
 }
 

@@ -112,7 +112,8 @@ bool ManipulationNode::run_step(double begin) {
 }
 
 void ManipulationNode::count(const live::CycleReport& report, bool deadline_missed) {
-  if (report.time_skipped > 0.0) ROS_WARN("skipped %.3g s without input", report.time_skipped);
+  if (const double skipped = report.time_skipped; skipped > 0.0)
+    ROS_WARN("no input for %.3g s (clock jumped or node stopped): this time is skipped, and nothing moves", skipped);
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;

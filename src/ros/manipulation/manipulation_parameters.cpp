@@ -38,17 +38,17 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   }
   if (const YAML::Node file = ros_common::take(rest, "checkpoint_file"))
     result.checkpoint_file = config::read_string(file, where, "checkpoint_file");
-  take_number(rest, where, "rate", validation::between(1.0, 2000.0), result.rate);
+  take_number(rest, where, "rate", validation::between(1.0, 2000.0).in("Hz"), result.rate);
   if (const YAML::Node priority = ros_common::take(rest, "realtime_priority"))
     result.realtime_priority = config::read_integer(priority, where, "realtime_priority", 0, 99);
-  take_number(rest, where, "display_latency", validation::between(0.0, motion::PosePredictor::farthest),
+  take_number(rest, where, "display_latency", validation::between(0.0, motion::PosePredictor::farthest).in("s"),
               result.display_latency);
-  take_number(rest, where, "markers_rate", validation::between(0.1, 200.0), result.markers_rate);
+  take_number(rest, where, "markers_rate", validation::between(0.1, 200.0).in("Hz"), result.markers_rate);
   if (const YAML::Node curve = ros_common::take(rest, "fork_curve")) {
     result.fork_curve = config::read_choice(curve, where, "fork_curve", fork_mesh::fork_curve_names());
   }
   take_number(rest, where, "fork_diameter", validation::between(0.01, 0.5), result.fork_diameter);
-  take_number(rest, where, "max_age", validation::positive(), result.max_age);
+  take_number(rest, where, "max_age", validation::positive().in("s"), result.max_age);
   take_frame(rest, where, "world_frame", result.world_frame);
   take_frame(rest, where, "frame_prefix", result.frame_prefix);
   take_frame(rest, where, "workbench_frame", result.workbench_frame);

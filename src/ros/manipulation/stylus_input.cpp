@@ -89,8 +89,8 @@ bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
   if (!sender_.accepts(sender, ros_common::local_time().attended)) {
     statistics_.other_sender = sender;
-    rejections_.add(another_sender, "tf: " + frame_ + ": expected one sender, " + sender_.name() + ", but " + sender +
-                                        " also sends it");
+    rejections_.add(another_sender, "tf: " + frame_ + ": sent by " + sender + ", too, but " + sender_.name() +
+                                        " is followed: stop one of them");
     return false;
   }
   if (another) wall_poses_.restart();
@@ -137,7 +137,7 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
     return false;
   }
   if (events_.is_full()) {
-    rejections_.add(loop_stalled, place_of(transform) + "the loop is stalled and accepts no input");
+    rejections_.add_loop_stalled(place_of(transform));
     return false;
   }
   const hand_input::RawSample sample = raw_sample(transform.transform, seconds(stamp));
@@ -165,7 +165,7 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   // Without a clock the message has no time: an epoch that it starts would soon be replaced by the true one.
   if (ros::Time::now().isZero()) return rejections_.add("no clock", joy_ + ": no time on /clock yet");
   if (message->buttons.empty()) return rejections_.add("no buttons", joy_ + ": buttons: expected at least one button");
-  if (events_.is_full()) return rejections_.add(loop_stalled, joy_ + ": the loop is stalled and accepts no input");
+  if (events_.is_full()) return rejections_.add_loop_stalled(joy_ + ": ");
   const std::int64_t stamp = ros_common::nanoseconds_of(message->header.stamp);
   if (!ros::Time::isSimTime())
     return on_buttons(*message, wall_buttons_.local_or_now(stamp, ros_common::wall_moment()));

@@ -118,13 +118,14 @@ std::optional<Options> parse_options(int argc, char** argv) {
   using config::command_line;
   Options options;
   double largest_residual = 5.0;  // [mm]
-  if (!config::read_command_line(argc, argv,
-                                 {{"pivot", [&](const std::string&) { options.pivot = true; }, no_argument},
-                                  config::text_option("landmarks", options.landmarks),
-                                  config::text_option("motion", options.motion),
-                                  config::text_option("registration", options.registration),
-                                  config::number_option("largest-residual", validation::positive(), largest_residual),
-                                  config::text_option("out", options.out)})) {
+  if (!config::read_command_line(
+          argc, argv,
+          {{"pivot", [&](const std::string&) { options.pivot = true; }, no_argument},
+           config::text_option("landmarks", options.landmarks),
+           config::text_option("motion", options.motion),
+           config::text_option("registration", options.registration),
+           config::number_option("largest-residual", validation::positive().in("mm"), largest_residual),
+           config::text_option("out", options.out)})) {
     return std::nullopt;
   }
   options.largest_residual = 1e-3 * largest_residual;

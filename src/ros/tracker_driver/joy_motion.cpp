@@ -37,16 +37,16 @@ const std::vector<std::string>& joy_keys() {
 
 JoySettings read_joy_settings(const YAML::Node& map, const std::string& where) {
   JoySettings settings;
-  const auto number = [&](const char* key, double max, double& value) {
-    if (map[key]) value = config::read_number(map[key], where, key, validation::between(0.0, max));
+  const auto number = [&](const char* key, double max, const char* unit, double& value) {
+    if (map[key]) value = config::read_number(map[key], where, key, validation::between(0.0, max).in(unit));
   };
   const auto button = [&](const char* key, int& value) {
     if (map[key]) value = config::read_integer(map[key], where, key, -1, max_controls - 1);
   };
   if (map["axes"]) settings.axes = read_axes(map["axes"], where);
-  number("move_speed", 2.0, settings.move_speed);
-  number("turn_speed", 10.0, settings.turn_speed);
-  number("dead_zone", 0.9, settings.dead_zone);
+  number("move_speed", 2.0, "m/s", settings.move_speed);
+  number("turn_speed", 10.0, "rad/s", settings.turn_speed);
+  number("dead_zone", 0.9, "", settings.dead_zone);
   button("grasp_button", settings.grasp_button);
   button("tool_button", settings.tool_button);
   button("clutch_button", settings.clutch_button);

@@ -86,22 +86,22 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   text("workbench_frame", "a frame name", result.workbench_frame);
   text("stylus_frame", "a frame name", result.stylus_frame);
   text("head_frame", "a frame name", result.head_frame);
-  number("rate", validation::not_negative(), result.rate);
+  number("rate", validation::not_negative().in("Hz"), result.rate);
   number("speed", validation::between(0.01, 100.0), result.speed);
-  number("pause", validation::not_negative(), result.pause);
-  number("grasp_from", validation::not_negative(), result.grasp_from);
-  number("grasp_until", {result.grasp_from, unbounded, false, true}, result.grasp_until);
+  number("pause", validation::not_negative().in("s"), result.pause);
+  number("grasp_from", validation::not_negative().in("s"), result.grasp_from);
+  number("grasp_until", {result.grasp_from, unbounded, false, true, "s"}, result.grasp_until);
   if (parameters["loop"]) result.loop = config::read_bool(parameters["loop"], where, "loop");
   if (parameters["head"]) result.X_BHead = config::read_pose(parameters["head"], where, "head");
   if (parameters["tip"]) {
     const std::vector<double> tip = config::read_numbers(parameters["tip"], where, "tip", 3);
     result.p_ST = Vector3d(tip[0], tip[1], tip[2]);
   }
-  number("interpupillary_distance", validation::between(0.0, 0.2), result.interpupillary_distance);
-  number("dropout_after", validation::positive(), result.dropout_after);
+  number("interpupillary_distance", validation::between(0.0, 0.2).in("m"), result.interpupillary_distance);
+  number("dropout_after", validation::positive().in("s"), result.dropout_after);
   if (parameters["even_stamps"])
     result.even_stamps = config::read_bool(parameters["even_stamps"], where, "even_stamps");
-  number("latency", validation::between(0.0, 1.0), result.latency);
+  number("latency", validation::between(0.0, 1.0).in("s"), result.latency);
   if (parameters["offset"]) result.X_BT = config::read_pose(parameters["offset"], where, "offset");
   if (parameters["start"]) {
     if (parameters["offset"]) throw validation::InputError(where + ": start: cannot be given together with offset");

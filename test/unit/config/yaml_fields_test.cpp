@@ -60,6 +60,10 @@ TEST(NumberRule, SaysWhatItAllows) {
   EXPECT_EQ(validation::any_number().text(), "a number");
   EXPECT_EQ(validation::positive().text(), "a number > 0");
   EXPECT_EQ(validation::not_negative().text(), "a number >= 0");
+  EXPECT_EQ(validation::between(0.0, 0.1).in("s").text(), "a number between 0 and 0.1 s");
+  EXPECT_EQ(validation::positive_or_infinite().in("N·m").text(), "a number > 0 N·m, or .inf");
+  EXPECT_EQ(validation::any_number().in("m").text(), "a number in m");
+  EXPECT_EQ(validation::not_negative().in("–").text(), "a number >= 0") << "without a unit";
   EXPECT_EQ(validation::positive().text(infinity), "a finite number > 0") << "if infinity was given";
   EXPECT_EQ(validation::positive_or_infinite().text(), "a number > 0, or .inf");
   EXPECT_EQ(validation::between(1e-6, 1.0).text(), "a number between 1e-6 and 1");

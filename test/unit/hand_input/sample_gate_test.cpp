@@ -220,19 +220,23 @@ TEST(PoseFilter, OpensWithTheLowPassedSpeed) {
   EXPECT_NEAR(share, weight(1.0 + 20.0 * weight(8.0) * v), 1e-12);
 }
 
-TEST(SampleGate, ComplaintsNameFieldValueAndRuleInOneLine) {
+/// The reason first, as /diagnostics counts it, then field and value, then the rule by the name of its setting.
+TEST(SampleGate, ComplaintsNameReasonFieldValueAndSettingInOneLine) {
   const InputSettings settings;
   const RawSample bad{1.5, Vector3d(7.25, 0, 0), Quaterniond(0.5, 0, 0, 0)};
-  for (const auto& [result, field, value] :
-       std::vector<std::tuple<GateResult, std::string, std::string>>{{GateResult::bad_quaternion, "rotation", "0.5"},
-                                                                     {GateResult::too_far, "position", "7.25"},
-                                                                     {GateResult::not_later, "stamp", "1.5"},
-                                                                     {GateResult::too_fast, "position", "7.25"},
-                                                                     {GateResult::turns_too_fast, "rotation", "0.5"},
-                                                                     {GateResult::out_of_view, "position", "7.25"}}) {
+  const std::string position = "position (7.25, 0, 0) m ", rotation = "rotation (0, 0, 0, 0.5) ";
+  for (const auto& [result, given, rule] : std::vector<std::tuple<GateResult, std::string, std::string>>{
+           {GateResult::bad_quaternion, rotation, "input.quaternion_tolerance = 0.1"},
+           {GateResult::too_far, position, "input.max_distance = 1000 m"},
+           {GateResult::not_later, "stamp 1.5 s ", "the last sample"},
+           {GateResult::too_close, "stamp 1.5 s ", "the last sample"},
+           {GateResult::too_fast, position, "input.max_speed = 10 m/s"},
+           {GateResult::turns_too_fast, rotation, "input.max_turn_rate = 50 rad/s"},
+           {GateResult::out_of_view, position, "input.origin_radius = 0.001 m"},
+           {GateResult::out_of_view, position, "input.origin_angle = 0.02 rad"}}) {
     const std::string line = complaint(result, bad, settings);
-    for (const std::string& word : {field, value, std::string("': expected ")})
-      EXPECT_NE(line.find(word), line.npos) << line;
+    EXPECT_EQ(line.rfind(to_string(result) + ": " + given, 0), 0u) << line;
+    EXPECT_NE(line.find(rule), line.npos) << line;
     EXPECT_EQ(line.find('\n'), line.npos);
   }
   const RawSample nan{1.5, Vector3d(kNan, 0, 0), Quaterniond::Identity()};

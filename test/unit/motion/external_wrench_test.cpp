@@ -93,11 +93,11 @@ TEST(WrenchTrack, RefusesImplausibleWrenchesAndIsUnchanged) {
     ExternalWrench wrench = sample(2.0, 0.0);
     wrench.wrench.force.y() = bad;
     refused(wrench, "force.y: invalid value '");
-    refused(wrench, "': expected a number between -100000 and 100000");
+    refused(wrench, "': expected a number between -100000 and 100000 N");
     wrench = sample(2.0, 0.0);
     wrench.wrench.moment.z() = bad;
     refused(wrench, "torque.z: invalid value '");
-    refused(wrench, "': expected a number between -100000 and 100000");
+    refused(wrench, "': expected a number between -100000 and 100000 N·m");
   }
   for (const double bad : {nan, never, 2e12}) refused(sample(bad, 1.0), "t: ");
   ExternalWrench wrench = sample(2.0, 1.0);

@@ -95,13 +95,13 @@ TEST(MotionFile, BadLinesNameFileLineFieldValueAndRule) {
     const char* expected;  // after "file:3: "
   };
   const Bad table[] = {
-      {"abc 0 0 0 0 0 0 1", "t: invalid value 'abc': expected a number between -1e12 and 1e12"},
-      {"nan 0 0 0 0 0 0 1", "t: invalid value 'nan': expected a number between -1e12 and 1e12"},
-      {"1 0 inf 0 0 0 0 1", "y: invalid value 'inf': expected a number between -1e9 and 1e9"},
-      {"1 0 0 1e400 0 0 0 1", "z: invalid value '1e400': expected a number between -1e9 and 1e9"},
-      {"1 2e9 0 0 0 0 0 1", "x: invalid value '2e9': expected a number between -1e9 and 1e9"},
-      {"1 0,5 0 0 0 0 0 1", "x: invalid value '0,5': expected a number between -1e9 and 1e9"},
-      {"1 0.5.1 0 0 0 0 0 1", "x: invalid value '0.5.1': expected a number between -1e9 and 1e9"},
+      {"abc 0 0 0 0 0 0 1", "t: invalid value 'abc': expected a number between -1e12 and 1e12 s"},
+      {"nan 0 0 0 0 0 0 1", "t: invalid value 'nan': expected a number between -1e12 and 1e12 s"},
+      {"1 0 inf 0 0 0 0 1", "y: invalid value 'inf': expected a number between -1e9 and 1e9 m"},
+      {"1 0 0 1e400 0 0 0 1", "z: invalid value '1e400': expected a number between -1e9 and 1e9 m"},
+      {"1 2e9 0 0 0 0 0 1", "x: invalid value '2e9': expected a number between -1e9 and 1e9 m"},
+      {"1 0,5 0 0 0 0 0 1", "x: invalid value '0,5': expected a number between -1e9 and 1e9 m"},
+      {"1 0.5.1 0 0 0 0 0 1", "x: invalid value '0.5.1': expected a number between -1e9 and 1e9 m"},
       {"1 0 0 0 NaN 0 0 1", "qx: invalid value 'NaN': expected a number between -2 and 2"},
       {"1 0 0 0 0 0 0 0", "norm of qx qy qz qw: invalid value '0': expected a number between 0.5 and 2"},
       {"1 0 0 0 0 0 0 0.1", "norm of qx qy qz qw: invalid value '0.1': expected a number between 0.5 and 2"},

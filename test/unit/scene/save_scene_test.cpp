@@ -151,7 +151,8 @@ TEST(SavedScenes, WhereTheyMayNotBeTheyAreRefused) {
   const auto invalid = [](const std::string& path) { return "path: invalid value '" + path + "': expected "; };
   EXPECT_EQ(refusal(folder.path("good.urdf")), "");
   const std::string outside = elsewhere.path("box.urdf");
-  EXPECT_EQ(refusal(outside), invalid(outside) + "a file in a ROS package or in one of the folders " + folder.path(""));
+  EXPECT_EQ(refusal(outside), invalid(outside) + "a file in a ROS package or in one of the folders " + folder.path("") +
+                                  " (scene_roots can name more)");
   const std::string above = folder.path("../box.urdf"), in_package = invalid(above) + "a file in a ROS package";
   EXPECT_EQ(refusal(above).substr(0, in_package.size()), in_package);
   const std::string rule = "a package:// URI or an absolute path, in a folder that exists";

@@ -197,15 +197,16 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
   const std::string objects = "a movable object of the scene (held, below, above)";
   expect(removal("wall"), "name: invalid value 'wall': expected " + objects);
   expect(removal("none"), "name: invalid value 'none': expected " + objects);
-  expect(new_mass("held", nan), "mass: invalid value 'nan': expected a number between 0 and 1e12");
-  expect(new_mass("held", -1.0), "mass: invalid value '-1': expected a number between 0 and 1e12");
+  expect(new_mass("held", nan), "mass: invalid value 'nan': expected a number between 0 and 1e12 kg");
+  expect(new_mass("held", -1.0), "mass: invalid value '-1': expected a number between 0 and 1e12 kg");
   expect(new_friction("held", -0.1), "friction: invalid value '-0.1': expected a number >= 0");
-  expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))), "held is held or pushed: release it first");
+  expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))), "name: held is held or pushed; release it first");
   expect({Action::move, "below", "", std::nullopt}, "pose: expected a pose to move to");
   expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "pose: expected a finite pose");
   expect(addition("wall", std::nullopt), "name: invalid value 'wall': expected a new name");
-  expect({Action::add, "brick", folder_.path("none.urdf"), std::nullopt},
-         "urdf: invalid value '" + folder_.path("none.urdf") + "': expected an existing file");
+  expect(
+      {Action::add, "brick", folder_.path("none.urdf"), std::nullopt},
+      "urdf: invalid value '" + folder_.path("none.urdf") + "': expected a readable file (No such file or directory)");
   expect({static_cast<Action>(77), "held", "", std::nullopt},
          "action: invalid value '77': expected one of add, move, remove, mass, friction");
   if (GetParam() == ContactMode::none) return;

@@ -71,6 +71,17 @@ TEST(Settings, EveryKeySetsAFieldOfItsOwn) {
   EXPECT_EQ(outcomes.size(), 49u) << "one field of the structs has no key, or fingerprint() does not know it";
 }
 
+TEST(Settings, TheRefusalOfANumberNamesItsUnit) {
+  for (const SettingDescription& d : setting_descriptions()) {
+    if (d.type != "double") continue;
+    SimulationSettings settings;
+    std::string message = refusal(d.key + ": nan", settings);
+    if (const std::size_t end = message.rfind(", or .inf"); end != message.npos) message.resize(end);
+    const std::string last = message.substr(message.find_last_of(' ') + 1);
+    EXPECT_EQ(d.unit == "–" ? contains("0123456789", last.substr(last.size() - 1)) : last == d.unit, true) << message;
+  }
+}
+
 TEST(Settings, EveryDefaultThatIsAValueIsAllowed) {
   for (const SettingDescription& d : setting_descriptions()) {
     EXPECT_FALSE(d.meaning.empty() || d.unit.empty() || d.allowed.empty() || d.default_value.empty()) << d.key;

@@ -427,7 +427,7 @@ TEST_F(Switching, MessagesBeginWithTheField) {
   change.stiffness.bend = -1.0;
   SimulationSettings settings;
   settings.fork.stiffness.bend = -1.0;
-  const std::string rule = "fork.stiffness.bend: invalid value '-1': expected a number between 0 and 1e16";
+  const std::string rule = "fork.stiffness.bend: invalid value '-1': expected a number between 0 and 1e16 N/m";
   for (const auto& call : std::vector<std::function<void()>>{[&] { simulation.change(change); },
                                                              [&] { Simulation(simulation.scene(), settings); }}) {
     try {

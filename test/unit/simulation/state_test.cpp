@@ -259,19 +259,19 @@ TEST(State, OfAnotherSceneIsRefused) {
   };
   const scene::Scene same = boxes(scene::ContactMode::stop);
   EXPECT_EQ(refused(Simulation(renamed, {}).save()),
-            "state: expected that of a simulation with bodies a b c d wall, got bodies z b c d wall");
+            "state: saved with bodies z b c d wall, but this simulation has bodies a b c d wall");
   EXPECT_EQ(refused(Simulation(fewer, {}).save()),
-            "state: expected that of a simulation with bodies a b c d wall, got bodies a b c d");
+            "state: saved with bodies a b c d, but this simulation has bodies a b c d wall");
   EXPECT_EQ(refused(Simulation(boxes(scene::ContactMode::none), {}).save()),
-            "state: expected that of a simulation with contact stop, got contact none");
+            "state: saved with contact none, but this simulation has contact stop");
   EXPECT_EQ(refused(Simulation(same, other_shape).save()),
-            "state: expected that of a simulation with shape linear, got shape bushing");
+            "state: saved with shape bushing, but this simulation has shape linear");
   EXPECT_EQ(refused(Simulation(same, three).save()),
-            "state: expected that of a simulation with 2 styluses, got 3 styluses");
-  EXPECT_EQ(refused(SimulationState()), "state: expected that of a simulation with contact stop, got nothing saved");
+            "state: saved with 3 styluses, but this simulation has 2 styluses");
+  EXPECT_EQ(refused(SimulationState()), "state: saved with nothing, but this simulation has contact stop");
   std::string more = serialise(s.save());
   more.insert(more.find("wall\"") + 4, "\\ndoors");
-  EXPECT_EQ(refused(parse_state(more)), "state: expected that of a simulation without doors");
+  EXPECT_EQ(refused(parse_state(more)), "state: saved with doors, which this simulation does not have");
   EXPECT_EQ(s.state_hash(), before);
 }
 

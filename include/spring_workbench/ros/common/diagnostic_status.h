@@ -24,6 +24,9 @@ class DiagnosticStatusBuilder {
   }
   /// Raises the level (OK, WARN, ERROR, STALE) with a reason. A level below the current one changes nothing.
   DiagnosticStatusBuilder& raise(int8_t level, const std::string& reason);
+  DiagnosticStatusBuilder& warn(const std::string& reason) {
+    return raise(diagnostic_msgs::DiagnosticStatus::WARN, reason);
+  }
   const diagnostic_msgs::DiagnosticStatus& status() const { return status_; }
 
  private:

@@ -11,6 +11,8 @@ class Rejections {
  public:
   /// `line`: what is wrong with the input, and what would be valid.
   void add(const std::string& reason, const std::string& line);
+  /// Adds a message for which the queue to the physics loop has no room. `place`: e.g. "stylus/joy: ".
+  void add_loop_stalled(const std::string& place);
   /// Counts without logging: another line says why.
   void count(const std::string& reason) { ++counts_[reason]; }
   const std::map<std::string, std::size_t>& counts() const { return counts_; }

@@ -39,8 +39,8 @@ struct InputStatistics {
   double newest_offer_age = 0.0;  ///< age, by its stamp, of the newest sample, whether or not it was used [s]
 };
 
-/// Reasons to reject messages: of a second sender, and while the loop is stalled.
-constexpr char another_sender[] = "another sender", loop_stalled[] = "the loop is stalled";
+/// Reason to reject messages of a second sender.
+constexpr char another_sender[] = "another sender";
 
 /// Input of one stylus: subscribes to /tf, /tf_static and its buttons, and queues the events until they are taken.
 /// Unusable messages are rejected, counted by reason and logged in one throttled line. Poses are not filtered here; the

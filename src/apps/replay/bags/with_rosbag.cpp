@@ -44,7 +44,7 @@ double seconds_between(const ros::Time& from, const ros::Time& to) {
 RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::string& where) {
   const auto& p = transform.translation;
   const auto& q = transform.rotation;
-  const validation::NumberRule position = validation::between(-farthest_position, farthest_position);
+  const validation::NumberRule position = validation::between(-farthest_position, farthest_position).in("m");
   validation::check_number(where, "translation.x", p.x, position);
   validation::check_number(where, "translation.y", p.y, position);
   validation::check_number(where, "translation.z", p.z, position);
