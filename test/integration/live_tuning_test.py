@@ -63,7 +63,7 @@ class LiveTuning(unittest.TestCase):
         self.assertTrue(set_integrator("exponential", 0.02, 1e-5).success)
         self.assertEqual(self.client.update_configuration({"step": 0.01})["step"], 0.01)
         keep = SetIntegratorRequest.KEEP_TOLERANCE
-        self.assertIn("steps of at most 0.01 s, tolerance 1e-05 m", set_integrator("exponential", 0.0, keep).message)
+        self.assertIn("steps of at most 0.01 s, tolerance 1e-5 m", set_integrator("exponential", 0.0, keep).message)
 
     def test_a_bad_value_rejects_the_good_one_too(self):
         before = self.fork.next()

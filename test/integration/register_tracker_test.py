@@ -136,7 +136,7 @@ class RegisterTracker(unittest.TestCase):
         self.refuse("touches: expected one per landmark (5), got 4", *again, self.motion(straight[:4]))
         self.refuse("from its mean while", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
         self.refuse(
-            "turned by",
+            "turned too little",
             "--pivot",
             "--motion",
             self.file("still.tum", "".join("%g 0 0 0 0 0 0 1 %d\n" % (0.02 * k, k > 10) for k in range(100))),

@@ -200,7 +200,7 @@ class Rviz(OnScreen):
                 break
         self.assertEqual(self.fork.next().integrator, "rosenbrock")
         message = set_integrator("exponential", 0.0, SetIntegratorRequest.KEEP_TOLERANCE).message
-        self.assertIn("tolerance 1e-05 m", message)
+        self.assertIn("tolerance 1e-5 m", message)
 
     def test_object_is_moved_with_the_mouse_alone(self):
         box = self.objects.next().objects[0]
