@@ -181,7 +181,7 @@ class ToolState:
         """Angle between the tool's axis and the force on it, 0 to pi [rad] (the paper, section 4)."""
     @property
     def load(self) -> float:
-        """Load as a fraction of the scene's range of loads, 0 to 1."""
+        """Position of the load in the scene's range of loads, 0 (none) to 1 (the heaviest object)."""
     @property
     def clutch(self) -> bool:
         """True while the hand moves without the tool."""
@@ -229,7 +229,7 @@ class AdvanceReport:
     `steps` counts the steps that were taken. An attempt at a step is discarded if its equation was not solved or its
     error was too large, and the step is repeated as shorter ones; `substeps` counts the discarded attempts. If no
     shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
-    rigid for the step or, in contact, the object stays in place (`steps_rejected`). If the last three, `stops`,
+    rigid for the step or, in contact, the object stays in place (`steps_rejected`). If these three, `stops`,
     `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact, one step may need
     several integrations of the equation of motion, each over a part of it.
 

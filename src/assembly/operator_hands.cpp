@@ -18,7 +18,7 @@ const OperatorSettings& checked(const OperatorSettings& s) {
   validation::check_number(where, "reaction", s.reaction, validation::between(0.0, 2.0).in("s"));
   validation::check_number(where, "position_noise", s.position_noise, validation::between(0.0, 0.1).in("m"));
   validation::check_number(where, "angle_noise", s.angle_noise, validation::between(0.0, 1.0).in("rad"));
-  validation::check_number(where, "aim_scatter", s.aim_scatter, validation::between(0.0, 0.5).in("m"));
+  validation::check_number(where, "aim_scatter", s.aim_scatter, validation::between(0.0, 0.5));
   return s;
 }
 

@@ -26,8 +26,8 @@ void* find_function(const Engine& engine, const scene::Scene& scene) {
   if (function == nullptr) {
     const std::string mode = scene.contact == scene::ContactMode::dynamic ? "dynamic" : "stop";
     validation::refuse_because("", "contact",
-                               "mode '" + mode + "' is not available: it needs " + engine.base +
-                                   ", which was not found when this was built (" + dlerror() + "); use contact: none");
+                               "mode '" + mode + "' needs " + engine.library + ", which cannot be loaded (" +
+                                   dlerror() + "): install " + engine.base + " and build again, or use contact: none");
   }
   return function;
 }

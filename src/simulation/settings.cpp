@@ -167,7 +167,8 @@ std::vector<Field> calibration_fields(tools::GraspSettings& s) {
       number("calibration.object.sag", "–", between(1e-3, 0.6),
              "fraction of the fork's length by which the object's weight extends and deflects it", of_object.sag),
       number("calibration.object.twist", "rad", between(1e-3, 1.5),
-             "twist under the weight of an object as dense as water at a lever of its radius of gyration",
+             "angle by which the fork twists when it holds an object of the density of water one radius of gyration "
+             "off its centre",
              of_object.twist),
       number("calibration.world.stretch", "–", between(1e-3, 3.0),
              "fraction of the fork's length by which the weight of the heaviest object extends it", of_world.stretch),

@@ -391,7 +391,7 @@ void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std
   std::vector<ObjectEdit> same = edits;
   state(same, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
         settings.dynamics.error_bound);
-  if (!(same == edits)) throw std::out_of_range("of another scene");
+  if (!(same == edits)) throw std::out_of_range("the objects of its scene were edited otherwise");
   objects::Objects::Archive of_objects(objects);
   some != nullptr ? of_objects.exchange(state, *some) : of_objects.exchange(state);
   for (Hand& hand : hands) hand.exchange(state, now);
@@ -400,7 +400,7 @@ void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std
 void Simulation::Impl::set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some) {
   math::StateArchive state(words);
   exchange(state, some);
-  if (!state.at_end()) throw std::out_of_range("data left over at the end");
+  if (!state.at_end()) throw std::out_of_range("it is longer than expected");
 }
 
 void Simulation::Impl::exchange_input(math::StateArchive& state) {
@@ -415,7 +415,7 @@ void Simulation::Impl::restore(const math::StateArchive::Words& words) {
     set(words);
   } catch (const std::exception& error) {
     set(present.taken());
-    throw validation::InputError(std::string("state: not a saved state: ") + error.what());
+    throw validation::InputError(std::string("state: not a state of this simulation: ") + error.what());
   }
 }
 

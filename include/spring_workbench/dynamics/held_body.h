@@ -48,8 +48,8 @@ struct HandleForcings : ForcingOf<math::Pack> {
 
 /// Energy of held body and springs at several moments, with the power that should change it.
 struct EnergyBalance {
-  /// Energy in the frame of the handle [J], which is conserved if the handle is at rest: elastic, kinetic and potential
-  /// energy, less the products of the body's momenta about the handle's origin with the handle's velocities.
+  /// Energy as seen from the moving handle [J]: elastic, kinetic and potential energy − p·v − L·ω, with the body's
+  /// momenta p, L about the handle's origin and the handle's velocities v, ω. At rest it is conserved without damping.
   math::Pack energy;
   math::Pack power;  ///< power of the handle's acceleration, of contact and of the dampers in that frame [W]
 };

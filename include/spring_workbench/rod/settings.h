@@ -53,19 +53,25 @@ struct PerDofChange {
   void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }  ///< saves or restores all three
 };
 
-/// Shape models of the fork: a rod whose curvature is constant or linear along it, or a bushing, which has springs at
-/// its tip instead of a rod (doc/model.md, "Shape models").
-enum class ShapeKind { constant, linear, bushing };
+/// Shape models of the fork (doc/model.md, "Shape models").
+enum class ShapeKind {
+  constant,  ///< a rod whose curvature is constant along it: four coordinates
+  linear,    ///< a rod whose curvature is linear along it: six coordinates, the default
+  bushing,   ///< springs at the tip instead of a rod: six coordinates
+};
 const std::vector<std::string>& names_of(ShapeKind);  ///< words for the shape models in settings
 
-/// Meaning of the damping values: one ratio per DOF (Kelvin–Voigt), one ratio for all modes of the held body, or one
-/// coefficient per DOF.
-enum class DampingLaw { per_dof, modal, coefficients };
+/// Meaning of the damping values.
+enum class DampingLaw {
+  per_dof,       ///< one ratio per DOF (Kelvin–Voigt)
+  modal,         ///< one ratio for all modes of the held body
+  coefficients,  ///< one coefficient per DOF
+};
 const std::vector<std::string>& names_of(DampingLaw);  ///< words for the damping laws in settings
 
 /// Settings of the spring-fork's elastic part (doc/model.md, "The rod").
 struct ForkSettings {
-  ShapeKind shape = ShapeKind::linear;  ///< key `shape`
+  ShapeKind shape = ShapeKind::linear;  ///< shape model (key `shape`)
   double length = 0.2;                  ///< key `fork.length` [m], 1e-4 … 1e3: rest length L
   /// Keys `fork.stiffness.…` [N/m, N/m, N·m/rad], 0 … 1e16: force at the tip per displacement of the tip, along and
   /// across the rod, and moment per angle. These are not the EA and EI of the rod's section.
@@ -76,8 +82,8 @@ struct ForkSettings {
   PerDof damping_ratio{1.0, 1.0, 1.0};  ///< keys `fork.damping.…`: ζ, 0 … 10; 1 is critical
   /// Keys `fork.damping_coefficient.…` [N·s/m, N·s/m, N·m·s/rad], 0 … 1e12: used by the law `coefficients`.
   PerDof damping_coefficient;
-  DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` needs one ζ for all DOFs
-  ForkDofs dofs;                                 ///< keys `fork.dofs.…`
+  DampingLaw damping_law = DampingLaw::per_dof;  ///< meaning of the damping values (key `fork.damping_law`)
+  ForkDofs dofs;                                 ///< deformations that are possible (keys `fork.dofs.…`)
   /// Key `fork.switch_off_time` [s], 1e-6 … 1e3: time constant of the return to zero of a DOF that is switched off
   /// while strained. From rest, its strain falls to 1 % in 6.6 time constants.
   double switch_off_time = 0.05;

@@ -44,9 +44,12 @@ struct Body {
   std::vector<geometry::Shape> visual;  ///< shapes for display; if the URDF has none, the shapes for contact
 };
 
-/// Contact mode. `none`: no contact. `stop`: a held or falling object stops at other bodies. `dynamic`: it also moves
-/// other objects.
-enum class ContactMode { none, stop, dynamic };
+/// Contact mode.
+enum class ContactMode {
+  none,     ///< no contact
+  stop,     ///< a held or falling object stops at other bodies
+  dynamic,  ///< it also moves other objects
+};
 /// The words for the contact modes in settings and scenes.
 inline std::vector<std::string> names_of(ContactMode) { return {"none", "stop", "dynamic"}; }
 

@@ -55,7 +55,7 @@ SimulationState parse_state(const std::string& text);
 /// error was too large, and the step is repeated as shorter ones; `substeps` counts the discarded attempts. If no
 /// shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
 /// rigid for the step or, in contact, the object stays in place (`steps_rejected`; doc/model.md, "Steps that are not
-/// solved"). If the last three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual
+/// solved"). If these three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are all 0, nothing unusual
 /// happened. In contact, one step may need several integrations of the equation of motion, each over a part of it.
 ///
 /// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate

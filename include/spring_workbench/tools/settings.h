@@ -17,7 +17,7 @@ inline std::vector<std::string> names_of(LimitAction) { return {"let_go", "slip"
 struct LimitSettings {
   double force = std::numeric_limits<double>::infinity();   ///< key `limit.force` [N], > 0
   double moment = std::numeric_limits<double>::infinity();  ///< key `limit.moment` [N·m], > 0
-  LimitAction action = LimitAction::let_go;                 ///< key `limit.action`
+  LimitAction action = LimitAction::let_go;                 ///< what happens beyond the limit (key `limit.action`)
 };
 
 /// Objects for which a tool's stiffness is chosen: none, each one when it is grasped, or all of the scene together.
@@ -47,7 +47,7 @@ inline std::vector<std::string> names_of(Release) { return {"thrown", "dropped"}
 
 /// How tools grasp, calibrate and release.
 struct GraspSettings {
-  Calibration calibrate = Calibration::none;  ///< key `calibrate`
+  Calibration calibrate = Calibration::none;  ///< objects that the stiffness is chosen for (key `calibrate`)
   ObjectGoal object_goal;                     ///< keys `calibration.object.…`
   WorldGoal world_goal;                       ///< keys `calibration.world.…`
   /// Key `grasp.object`: name of the object that is held from the first sample on; empty: grasp by button.
@@ -57,7 +57,7 @@ struct GraspSettings {
   std::string object_place;           ///< internal: the place in a file of `object`, for messages
   std::string tip_place;              ///< internal: the place in a file of `X_OE`, for messages
   bool start_follow = false;          ///< key `start.follow`: whether to move the object so that the first pose fits
-  Release release = Release::thrown;  ///< key `release`
+  Release release = Release::thrown;  ///< motion after a release (key `release`)
 };
 
 }  // namespace spring_workbench::tools

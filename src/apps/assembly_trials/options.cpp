@@ -53,7 +53,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
            config::number_option("delay", validation::between(0.0, 2.0).in("s"), options.hand.reaction),
            config::number_option("noise", validation::between(0.0, 0.1).in("m"), options.hand.position_noise),
            config::number_option("angle-noise", validation::between(0.0, 1.0).in("rad"), options.hand.angle_noise),
-           config::number_option("scatter", validation::between(0.0, 0.5).in("m"), options.hand.aim_scatter),
+           config::number_option("scatter", validation::between(0.0, 0.5), options.hand.aim_scatter),
            config::number_option("time-limit", validation::between(1.0, 1e5).in("s"), options.time_limit),
            config::text_option("out", options.out),
            config::text_option("table", options.table),

@@ -91,12 +91,12 @@ void check_not_read(const Options& options, const std::string& settings) {
 const char* const usage_text =
     R"(Runs the simulation on a recorded hand, without ROS master or clock; equal input gives bit-identical CSV.
 
-replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag) [--hand-only]
-       [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
+replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag [--parent FRAME] [--child FRAME])
+       [--hand-only] [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
 
   --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
   --motion    a hand: lines of `t x y z qx qy qz qw [button]` (t in s; x, y, z in m; button 0 or 1), or a script
-              (*.yaml) of waypoints; the time of each starts at its own first sample
+              (*.yaml) of waypoints; the first sample of each hand is at t = 0
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus), placed by
               /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; further hands
               from CHILD_2 (stylus_2) and stylus_2/joy, CHILD_3, ..., all that the bag has. If it has ~accepted and
@@ -112,8 +112,8 @@ Example, in the root of the repository: the demo's hand, with a stiffer fork
 )";
 
 const char* const output_text =
-    R"(Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless
-grasp.object names an object, which the first hand then holds; the buttons are then ignored.
+    R"(Times are in s, with --bag from the first sample of any hand. Without a button in the motion, nothing is held
+unless grasp.object names an object, which the first hand then holds; the buttons are then ignored.
 
 RUN.csv, a line per output time and movable object [s, -, m, -, m/s, rad/s], of its centre of mass in world:
   t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
@@ -147,11 +147,12 @@ The last line on standard output is one JSON object (null: no number):
   substeps                                  steps discarded and repeated as shorter ones
   stops                                     steps in which the fork reached the end of its range
   steps_fallback                            integrations by an L-stable rule, because the integrator could not
-  steps_blocked, steps_unsolved             steps in which contact admitted no motion; in which it missed its law
+  steps_blocked, steps_unsolved             steps in which an object was blocked; in which a contact stayed unsolved
   steps_rejected                            steps without a usable result: the fork was rigid, or the object blocked
   time_lost                                 [s] during which an object did not follow its equation of motion
   changes                                   changes by services and panels that the bag has
-  changes_made_again, changes_mismatched    of these repeated, not loaded; with another result than recorded
+  changes_made_again                        changes that were carried out again, not loaded from the bag
+  changes_mismatched                        changes that led to another state than the recorded one
   state_hash, active, skipped               of the final state; the subsystems that ran; those that did not
 Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.
 )";

@@ -100,10 +100,10 @@ void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request
   const live::StepTime step = runner.time_of_step();
   const bool fixed = !(now.tolerance > 0.0);
   char text[200];
-  std::snprintf(text, sizeof text, "%s, %ssteps of at most %g s%s; a step takes %.3g ms now%s",
-                validation::name_of(now.integrator).c_str(), fixed ? "fixed " : "", now.step,
-                fixed ? "" : (", tolerance " + validation::number_text(now.tolerance) + " m").c_str(), 1e3 * step.takes,
-                step.takes > step.lasts ? ": too slow, so samples will be dropped" : "");
+  std::snprintf(text, sizeof text, "%s, steps of at most %g s%s; a step takes %.3g ms now%s",
+                validation::name_of(now.integrator).c_str(), now.step,
+                fixed ? ", no tolerance" : (", tolerance " + validation::number_text(now.tolerance) + " m").c_str(),
+                1e3 * step.takes, step.takes > step.lasts ? ": slower than real time, so samples will be dropped" : "");
   response.message = text;
 }
 
