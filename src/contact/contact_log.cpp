@@ -71,23 +71,31 @@ void ContactLog::begin_step(double h) {
     for (PastImpulse& past : recent) past.age += h;
     const auto is_over = [](const PastImpulse& past) { return past.age >= force_window; };
     recent.erase(std::remove_if(recent.begin(), recent.end(), is_over), recent.end());
-    of_object = recent.empty() ? recent_.erase(of_object) : std::next(of_object);
+    const bool is_done = recent.empty() && with_contacts_.count(of_object->first) == 0;
+    of_object = is_done ? recent_.erase(of_object) : std::next(of_object);
   }
 }
 
 void ContactLog::set_forces(std::size_t object, double h, std::vector<ContactState>& contacts) {
-  std::map<std::string, std::pair<int, double>> now;  // number of contacts and impulse, by the other body
-  for (const ContactState& c : contacts) {
-    ++now[c.other].first;
-    now[c.other].second += c.impulse;
-  }
-  std::map<std::string, double> force;
-  for (const auto& [other, step] : now) recent_[object].push_back({other, step.second, h, 0.0});
-  for (const PastImpulse& past : recent_[object])
-    force[past.other] += past.impulse * std::min(1.0, (force_window - past.age) / past.h) / force_window;
-  for (ContactState& c : contacts) {
-    const auto [points, impulse] = now[c.other];
-    c.force = force[c.other] * (impulse > 0.0 ? c.impulse / impulse : 1.0 / points);
+  std::vector<PastImpulse>& recent = recent_[object];
+  for (auto first = contacts.begin(); first != contacts.end(); ++first) {
+    const auto of_pair = [&](const ContactState& c) { return c.other == first->other; };
+    if (std::any_of(contacts.begin(), first, of_pair)) continue;  // done with the first contact of the pair
+    double impulse = 0.0, force = 0.0;
+    int points = 0;
+    for (auto c = first; c != contacts.end(); ++c) {
+      if (!of_pair(*c)) continue;
+      impulse += c->impulse;
+      ++points;
+    }
+    recent.push_back({first->other, impulse, h, 0.0});
+    for (const PastImpulse& past : recent) {
+      if (past.other != first->other) continue;
+      force += past.impulse * std::min(1.0, (force_window - past.age) / past.h) / force_window;
+    }
+    for (auto c = first; c != contacts.end(); ++c) {
+      if (of_pair(*c)) c->force = force * (impulse > 0.0 ? c->impulse / impulse : 1.0 / points);
+    }
   }
 }
 
