@@ -108,6 +108,21 @@ void expect_to_hold(const TrialRow& row) {
                            << (row.bars.empty() ? 0.0 : row.bars[0].measured);
 }
 
+/// On a loose slab, so among movable bodies.
+TEST(ContactTrials, OnALooseSlabBodiesSlideRollAndBounceExactly) {
+  for (const std::string& motion : motions_in_contact()) {
+    for (const double step : {0.02, 0.005, 0.00125}) {
+      const MotionRun run = run_motion(motion, scene::ContactMode::dynamic, step);
+      EXPECT_LE(run.error, (step < 0.002  ? 1e-5
+                            : step < 0.01 ? 1e-4
+                                          : 1e-3) *
+                               run.displacement)
+          << motion << ' ' << step;
+      EXPECT_LE(run.measured.deepest.depth, 1e-5) << motion << ' ' << step;
+    }
+  }
+}
+
 TEST(ContactTrials, InclinesHoldBelowTheAngleOfFriction) { run_inclines(true, expect_to_hold); }
 
 TEST(ContactTrials, TheSameCallsGiveTheSameBits) { run_same_bits(true, expect_to_hold); }

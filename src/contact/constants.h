@@ -74,12 +74,13 @@ constexpr double load_share = 1e-5;
 /// Fraction of the displacement by the loads below which a change of them counts as none. Test:
 /// StopContact.ShortStepsGoTheWayOfLongOnes at 1.
 constexpr double small_change = 1e-6;
-/// [s]; longest substep among movable bodies if something is touched. Longer: friction and pushing are less exact.
-/// Test: ContactTrials.ACardHouseStands at 0.1.
-constexpr double max_substep = 2e-3;
-/// [s]; longest substep if a body moves that is not held, because the error of the world is of first order. Test: none:
-/// no value tried makes one fail.
-constexpr double max_substep_with_free = 1e-3;
+/// [m]; largest error of a free body's displacement over a substep among movable ones that is longer than
+/// `rough_substep`. Larger: friction and pushing are less exact. Test:
+/// ContactTrials.APegOfABoxGoesInWithATenthOfAMillimetre at 1e-4.
+constexpr double max_path_error = 2e-6;
+/// [s]; longest substep among movable bodies where velocities change abruptly. Longer: likewise. Test:
+/// ContactTrials.ACardHouseStands at 5e-3.
+constexpr double rough_substep = 1e-3;
 /// [s]; contact ignores a step that is shorter. Test: none: no value tried makes one fail.
 constexpr double min_step = 1e-9;
 /// [s]; shortest substep; in a step that is shorter than the longest substep, it is shorter in proportion. Smaller:

@@ -1,21 +1,23 @@
 #include "spring_workbench/contact/dynamic_stepper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "constants.h"
 #include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/math/so3.h"
+#include "world_results.h"
 
 namespace spring_workbench::contact {
-DynamicStepper::DynamicStepper(const scene::Scene& scene) : scene_(scene), world_(open_rigid_world(scene)) {}
+DynamicStepper::DynamicStepper(const scene::Scene& scene)
+    : scene_(scene), world_(open_rigid_world(scene)), substep_(rough_substep) {}
 
 DynamicStepper::Candidate DynamicStepper::try_substep(bodies::SteppedBody& body, double h) const {
   Candidate c;
   c.body = &body;
   c.begin = body.object();
-  const auto load = load_W_.find(body.index());
-  if (load != load_W_.end()) c.load_W = load->second;
+  if (const auto load = load_W_.find(body.index()); load != load_W_.end()) c.load_W = load->second;
   body.save(c.start);
   c.possible = body.advance(h, c.load_W) && bodies::is_finite(body.object());
   c.end = c.possible ? body.object() : c.begin;
@@ -48,14 +50,16 @@ void DynamicStepper::step_freely(const std::vector<Candidate>& candidates, doubl
 
 DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBody*>& held, double h) {
   contacts_.clear();
-  held_.clear();
+  std::vector<std::size_t> now_held;
   std::map<std::size_t, Wrench> loads;
   for (const bodies::SteppedBody* body : held) {
-    held_.push_back(body->index());
+    now_held.push_back(body->index());
     loads[body->index()] = load_W_[body->index()];
   }
   load_W_ = std::move(loads);
-  min_substep_ = min_substep * std::min(1.0, h / max_substep);
+  if (now_held != held_) substep_ = rough_substep;
+  held_ = std::move(now_held);
+  min_substep_ = min_substep * std::min(1.0, h / rough_substep);
   Outcome outcome;
   double left = h, substep = h;
   while (left > min_substep_share * h) {
@@ -86,18 +90,21 @@ DynamicStepper::Result DynamicStepper::step_in_contact(std::vector<Candidate> ca
     for (const Candidate& c : candidates) c.body->restore(c.start);
   };
   start_again();
-  const double limit = others_awake() ? max_substep_with_free : max_substep;
-  if (h > limit) {
-    h = limit;
+  if (h > substep_) {
+    h = substep_;
     return Result::too_long;
   }
-  const auto shorten = [&](double admissible) {
+  const auto repeat = [&](double shorter) {
     world_->undo_step();
     start_again();
-    h = std::max(std::clamp(safety * admissible, min_retry, max_retry) * h, min_substep_);
+    h = shorter;
     return Result::too_long;
   };
+  const auto shorten = [&](double admissible) {
+    return repeat(std::max(std::clamp(safety * admissible, min_retry, max_retry) * h, min_substep_));
+  };
   std::vector<rigid_bodies::DrivenBody> driven = solve(candidates, h);
+  if (const double substep = admissible_substep(h); substep < h) return repeat(substep);
   const double free_admissible = world_->admissible_fraction_of_free();
   if (free_admissible < 1.0 && h > min_substep_) return shorten(free_admissible);
   double admissible = admissible_fraction(candidates, driven, h);
@@ -126,6 +133,13 @@ DynamicStepper::Result DynamicStepper::step_in_contact(std::vector<Candidate> ca
   return free_admissible < 1.0 || !world_->solved() ? Result::done_unsolved : Result::done;
 }
 
+double DynamicStepper::admissible_substep(double h) {
+  if (world_->first_bounce() < h) return world_->first_bounce();
+  const double error = world_->path_error();
+  substep_ = std::max(rough_substep, h * std::clamp(safety * std::sqrt(max_path_error / error), min_retry, max_growth));
+  return error > max_path_error ? std::min(substep_, h) : h;
+}
+
 std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<Candidate>& candidates, double h) {
   std::vector<rigid_bodies::DrivenBody> driven;
   for (const Candidate& c : candidates) driven.push_back(driven_body(c, h));
@@ -149,12 +163,7 @@ double DynamicStepper::admissible_fraction(const std::vector<Candidate>& candida
 double DynamicStepper::predicted_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const {
   double admissible = 1.0;
   for (const rigid_bodies::DrivenBody& d : driven) {
-    Vector6d path = to_vector(d.displacement_W);
-    path += d.compliance * to_vector(d.contact_W) + d.displacement_by_impulse * to_vector(d.impact_W);
-    RigidTransform end = d.X_WO;
-    end.translation() += path.head<3>();
-    end.linear() = math::exp_so3(path.tail<3>()) * d.X_WO.linear();
-    admissible = std::min(admissible, world_->admissible_fraction(d.body, d.X_WO, end));
+    admissible = std::min(admissible, world_->admissible_fraction(d.body, d.X_WO, predicted_end(d)));
   }
   return admissible;
 }
@@ -196,11 +205,12 @@ rigid_bodies::DrivenBody DynamicStepper::driven_body(const Candidate& c, double 
   return d;
 }
 
-void DynamicStepper::exchange(math::StateArchive& state) { state(contacts_, held_, load_W_, *world_); }
+void DynamicStepper::exchange(math::StateArchive& state) { state(contacts_, held_, load_W_, substep_, *world_); }
 
 void DynamicStepper::set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W) {
   world_->place(body, X_WO, V_WO_W, true);
   held_.erase(std::remove(held_.begin(), held_.end(), body), held_.end());
+  substep_ = rough_substep;
 }
 
 std::vector<std::size_t> DynamicStepper::alone(const std::vector<std::size_t>& moving, double h) const {
@@ -235,22 +245,8 @@ bool DynamicStepper::has_priority(std::size_t body, std::size_t other) const {
 void DynamicStepper::add_contacts() {
   for (rigid_bodies::WorldContact& known : contacts_) known.depth = 0.0;
   for (rigid_bodies::WorldContact c : world_->contacts()) {
-    if (!has_priority(c.body, c.other)) {
-      std::swap(c.body, c.other);
-      c.n_W = -c.n_W;
-      c.impulse_W = -c.impulse_W;
-    }
-    const auto same = std::find_if(contacts_.begin(), contacts_.end(), [&](const rigid_bodies::WorldContact& known) {
-      return known.body == c.body && known.other == c.other && known.n_W.dot(c.n_W) > one_normal &&
-             (known.p_W - c.p_W).norm() < same_point;
-    });
-    if (same == contacts_.end()) {
-      contacts_.push_back(c);
-      continue;
-    }
-    const Vector3d sum = same->impulse_W + c.impulse_W;
-    *same = c;
-    same->impulse_W = sum;
+    if (!has_priority(c.body, c.other)) swap_bodies(c);
+    add_contact(c, contacts_);
   }
 }
 

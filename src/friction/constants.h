@@ -71,5 +71,8 @@ constexpr double same_side = 0.5;
 /// Gauss–Seidel iterations for the friction of what bounces. Fewer: it takes less energy than it could. Test:
 /// RigidWorld.ARodThatBouncesOnAnEdgeKeepsPoissonsLaw at 0.
 constexpr int bounce_iterations = 20;
+/// [m] by which a free body may be deeper after a step with its mean velocity than after one with its end velocity.
+/// Larger: bodies sink in. Test: LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 1e-4.
+constexpr double as_deep = 1e-7;
 
 }  // namespace spring_workbench::friction

@@ -75,4 +75,15 @@ double free_fraction_past(const OutlineBox& own, const StraightMotion& motion, c
   return std::min(gone, limit);
 }
 
+double StraightMotion::max_displacement(const Matrix3d& R_OW, const Vector3d& most_O) const {
+  const Vector3d a = (R_OW * turn_W).cwiseAbs(), &r = most_O;
+  const Vector3d arc(a.y() * r.z() + a.z() * r.y(), a.z() * r.x() + a.x() * r.z(), a.x() * r.y() + a.y() * r.x());
+  return move_W.norm() + arc.norm();
+}
+
+StraightMotion straight_motion(const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
+  return {X0_WO.translation(), X1_WO.translation() - X0_WO.translation(),
+          X0_WO.linear() * math::turn_between(X0_WO, X1_WO)};
+}
+
 }  // namespace spring_workbench::geometry

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "constants.h"
+#include "spring_workbench/geometry/contact_reduction.h"
+#include "spring_workbench/geometry/moving_solids.h"
 #include "spring_workbench/geometry/solid_contacts.h"
-#include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
@@ -35,28 +36,6 @@ const geometry::Solid& solid_of(const btCollisionObjectWrapper& object) {
   return *static_cast<const geometry::Solid*>(object.getCollisionShape()->getUserPointer());
 }
 
-/// Up to four of the contacts with about one normal: the deepest, the one furthest from it, and on either side of the
-/// line between them the one furthest from that.
-std::vector<geometry::BoxContact> spanning(const std::vector<geometry::BoxContact>& all) {
-  const auto best_by = [&](const auto& score) {
-    return *std::max_element(all.begin(), all.end(), [&](const auto& a, const auto& b) { return score(a) < score(b); });
-  };
-  if (all.empty()) return {};
-  const geometry::BoxContact deepest = best_by([](const auto& c) { return -c.gap; });
-  const auto from_deepest = [&](const geometry::BoxContact& c) { return Vector3d(c.p_W - deepest.p_W); };
-  const geometry::BoxContact across = best_by([&](const auto& c) { return from_deepest(c).norm(); });
-  const Vector3d aside_W = deepest.n_W.cross(from_deepest(across));
-  std::vector<geometry::BoxContact> kept{deepest};
-  if (from_deepest(across).norm() < contact_skin) return kept;
-  kept.push_back(across);
-  for (const double side : {1.0, -1.0}) {
-    const auto aside = [&](const auto& c) { return side * aside_W.dot(from_deepest(c)) / aside_W.norm(); };
-    const geometry::BoxContact widest = best_by(aside);
-    if (aside(widest) > contact_skin) kept.push_back(widest);
-  }
-  return kept;
-}
-
 /// Contacts of a sphere, a cylinder or a mesh above the half-space `n · x < height`.
 std::vector<geometry::BoxContact> contacts_of_points(const btCollisionObjectWrapper& body, const Vector3d& n_W,
                                                      double height, double reach) {
@@ -67,27 +46,10 @@ std::vector<geometry::BoxContact> contacts_of_points(const btCollisionObjectWrap
     const double gap = n_W.dot(p_W) - height;
     if (gap < reach) found.push_back({p_W - gap * n_W, n_W, gap});
   }
-  return spanning(found);
+  return geometry::spanning(found, contact_skin);
 }
 
 using Contacts = std::vector<geometry::BoxContact>;
-
-/// Contacts by their normals, those with the smallest gap first; some of each.
-std::vector<Contacts> by_normal(Contacts contacts) {
-  std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  std::vector<Contacts> groups;
-  for (const geometry::BoxContact& c : contacts) {
-    const auto same = std::find_if(groups.begin(), groups.end(),
-                                   [&](const auto& group) { return group.front().n_W.dot(c.n_W) > one_normal; });
-    if (same != groups.end()) {
-      same->push_back(c);
-    } else {
-      groups.push_back({c});
-    }
-  }
-  for (Contacts& group : groups) group = spanning(group);
-  return groups;
-}
 
 geometry::BoxContact swapped(const geometry::BoxContact& c) { return {c.p_W + c.gap * c.n_W, -c.n_W, c.gap}; }
 
@@ -134,8 +96,10 @@ std::vector<Contacts> contacts_between(const btCollisionObjectWrapper& a, const 
   }
   contacts.insert(contacts.end(), deep.begin(), deep.end());
   const bool touch = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.gap < closed_gap; });
-  if (touch || !geometry::overlap(solid_of(a), X_WA, solid_of(b), X_WB)) return by_normal(contacts);
-  std::vector<Contacts> groups = by_normal(found(0.0, std::numeric_limits<double>::infinity()));
+  if (touch || !geometry::overlap(solid_of(a), X_WA, solid_of(b), X_WB))
+    return geometry::by_normal(contacts, one_normal, contact_skin);
+  std::vector<Contacts> groups =
+      geometry::by_normal(found(0.0, std::numeric_limits<double>::infinity()), one_normal, contact_skin);
   missing = groups.empty();
   if (groups.size() > 1) groups.erase(groups.begin(), groups.end() - 1);
   return groups;
@@ -153,61 +117,19 @@ std::vector<geometry::BoxContact> contacts_above(const btCollisionObjectWrapper&
   return contacts_of_points(body, n_W, height, reach);
 }
 
-/// Straight motion of a body over a step; a point of it within `radius` of `p` [m].
-struct Moving {
-  Vector3d p = Vector3d::Zero(), v = p, w = p;
-  double radius = std::numeric_limits<double>::infinity();
-
-  explicit Moving(const btCollisionObjectWrapper& object) {
-    const btCollisionObject& body = *object.getCollisionObject();
-    if (is_plane(object)) return;
-    btVector3 centre;
-    body.getCollisionShape()->getBoundingSphere(centre, radius);
-    radius += centre.length();
-    p = from_bullet(body.getWorldTransform().getOrigin());
-    const btRigidBody* rigid = btRigidBody::upcast(&body);
-    if (rigid == nullptr || rigid->isStaticObject()) return;
-    v = from_bullet(rigid->getLinearVelocity());
-    w = from_bullet(rigid->getAngularVelocity());
-  }
-  Vector3d at(const Vector3d& p_W) const { return v + w.cross(p_W - p); }
-  /// Pose of a part of the body after `h` [s].
-  RigidTransform moved(const RigidTransform& X_WS, double h) const {
-    const Matrix3d turn = math::exp_so3(h * w);
-    RigidTransform X = X_WS;
-    X.linear() = turn * X_WS.linear();
-    X.translation() = p + h * v + turn * (X_WS.translation() - p);
-    return X;
-  }
-};
-
-/// Contact margin of two bodies [m]: at least the approach of their points in a step, as seen from the other.
-double reach_of(const Moving& a, const Moving& b, double h) {
-  const auto approach = [](const Moving& x, const Moving& y) {
-    const Vector3d w = x.w - y.w;
-    return (x.v - y.v - y.w.cross(x.p - y.p)).norm() + (w.isZero(0.0) ? 0.0 : x.radius * w.norm());
-  };
-  return std::max(contact_margin, h * std::min(approach(a, b), approach(b, a)));
-}
-
-/// Turns the normals of open contacts that the solids' motion over `h` [s] would close although it leads past the
-/// other: to be perpendicular to the motion, if the planes there separate the solids all the time.
-void let_pass(const geometry::Solid& a, const RigidTransform& X_WA, const Moving& moving_a, const geometry::Solid& b,
-              const RigidTransform& X_WB, const Moving& moving_b, double h, Contacts& contacts) {
-  const auto support = [](const geometry::Solid& solid, const RigidTransform& X_WS, const Vector3d& n_W) -> Vector3d {
-    return X_WS * geometry::furthest(solid, X_WS.linear().transpose() * n_W);
-  };
-  for (geometry::BoxContact& c : contacts) {
-    const Vector3d motion = h * (moving_a.at(c.p_W) - moving_b.at(c.p_W));
-    if (!(c.gap > closed_gap && c.gap + c.n_W.dot(motion) < 0.0)) continue;
-    const Vector3d across = c.n_W - c.n_W.dot(motion) / motion.squaredNorm() * motion;
-    if (across.isZero(0.0)) continue;
-    const Vector3d n = across.normalized();
-    const Vector3d on_b = support(b, X_WB, n);
-    const double gap = n.dot(support(a, X_WA, -n) - on_b);
-    const double at_end = n.dot(support(a, moving_a.moved(X_WA, h), -n) - support(b, moving_b.moved(X_WB, h), n));
-    if (std::min(gap, at_end) > 0.0) c = {on_b, n, gap};
-  }
+geometry::SteadyMotion motion_of(const btCollisionObjectWrapper& object) {
+  geometry::SteadyMotion motion;
+  const btCollisionObject& body = *object.getCollisionObject();
+  if (is_plane(object)) return motion;
+  btVector3 centre;
+  body.getCollisionShape()->getBoundingSphere(centre, motion.radius);
+  motion.radius += centre.length();
+  motion.p_W = from_bullet(body.getWorldTransform().getOrigin());
+  const btRigidBody* rigid = btRigidBody::upcast(&body);
+  if (rigid == nullptr || rigid->isStaticObject()) return motion;
+  motion.v_W = from_bullet(rigid->getLinearVelocity());
+  motion.w_W = from_bullet(rigid->getAngularVelocity());
+  return motion;
 }
 
 /// Contacts of shapes with each other and with a plane, in either order, found again in every step; each begins with
@@ -237,11 +159,13 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
       manifold->clearManifold();
     }
     result->setPersistentManifold(manifolds_.front());
-    const Moving moving_a(*a), moving_b(*b);
-    Contacts contacts = find(*a, *b, reach_of(moving_a, moving_b, info.m_timeStep), before);
+    const geometry::SteadyMotion moving_a = motion_of(*a), moving_b = motion_of(*b);
+    const double h = info.m_timeStep,
+                 reach = std::max(contact_margin, h * geometry::approach_speed(moving_a, moving_b));
+    Contacts contacts = find(*a, *b, reach, before);
     if (!is_plane(*a) && !is_plane(*b)) {
-      let_pass(solid_of(*a), from_bullet(a->getWorldTransform()), moving_a, solid_of(*b),
-               from_bullet(b->getWorldTransform()), moving_b, info.m_timeStep, contacts);
+      geometry::let_pass(solid_of(*a), from_bullet(a->getWorldTransform()), moving_a, solid_of(*b),
+                         from_bullet(b->getWorldTransform()), moving_b, h, closed_gap, contacts);
     }
     // Not by the result's own addContactPoint(), which takes near ones for one.
     for (const geometry::BoxContact& c : contacts) {

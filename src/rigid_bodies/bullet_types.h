@@ -31,4 +31,11 @@ inline RigidTransform from_bullet(const btTransform& X) {
   return out;
 }
 
+/// One without mass may not: Bullet takes contacts of what cannot move for none.
+inline void let_move(btRigidBody& body, bool may_move) {
+  const double factor = may_move ? 1.0 : 0.0;
+  body.setLinearFactor(btVector3(factor, factor, factor));
+  body.setAngularFactor(factor);
+}
+
 }  // namespace spring_workbench::rigid_bodies

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "constants.h"
+#include "spring_workbench/bodies/free_motion.h"
 #include "spring_workbench/geometry/conservative_advancement.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
@@ -19,48 +20,6 @@ namespace {
 using Extent = Eigen::AlignedBox3d;
 
 btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(box.min()), to_bullet(box.max())); }
-
-/// See unswept_of_free: a shorter path is not restricted by the boxes around shapes other than boxes.
-double unswept_on(double path) {
-  return path < unswept_of_free ? std::numeric_limits<double>::infinity() : unswept_of_free;
-}
-
-/// One without mass may not: Bullet takes contacts of what cannot move for none.
-void let_move(btRigidBody& body, bool may_move) {
-  const double factor = may_move ? 1.0 : 0.0;
-  body.setLinearFactor(btVector3(factor, factor, factor));
-  body.setAngularFactor(factor);
-}
-
-geometry::StraightMotion path_between(const RigidTransform& X0, const RigidTransform& X1) {
-  return {X0.translation(), X1.translation() - X0.translation(), X0.linear() * math::turn_between(X0, X1)};
-}
-
-/// How far from a body's origin it can touch what is within `radius` of a point [m].
-double reach(const geometry::StraightMotion& motion, const Vector3d& p_W, double radius) {
-  return (p_W - motion.p_WO).norm() + motion.move_W.norm() + radius;
-}
-
-/// How far a body's points can go that are no further from its origin than `most_O`, along its own axes: in any
-/// direction, and along one [m].
-double max_displacement(const geometry::StraightMotion& motion, const Matrix3d& R_OW, const Vector3d& most_O) {
-  const Vector3d a = (R_OW * motion.turn_W).cwiseAbs(), &r = most_O;
-  const Vector3d arc(a.y() * r.z() + a.z() * r.y(), a.z() * r.x() + a.x() * r.z(), a.x() * r.y() + a.y() * r.x());
-  return motion.move_W.norm() + arc.norm();
-}
-double max_displacement_along(const Vector3d& n_W, const geometry::StraightMotion& motion, const Matrix3d& R_OW,
-                              const Vector3d& most_O) {
-  return n_W.dot(motion.move_W) + (R_OW * n_W.cross(motion.turn_W)).cwiseAbs().dot(most_O);
-}
-
-/// Of two bodies in each other, by their contacts [m].
-double depth_between(std::size_t a, std::size_t b, const std::vector<WorldContact>& contacts) {
-  double depth = 0.0;
-  for (const WorldContact& c : contacts) {
-    if ((c.body == a && c.other == b) || (c.body == b && c.other == a)) depth = std::max(depth, c.depth);
-  }
-  return depth;
-}
 
 }  // namespace
 
@@ -199,7 +158,13 @@ std::vector<std::size_t> BulletWorld::inside(const Extent& box_W) const {
   return found.items;
 }
 
-void BulletWorld::take_states() {
+void BulletWorld::take_states(double h) {
+  path_error_ = 0.0;
+  std::vector<std::pair<std::size_t, motion::MotionState>> moved;
+  for (const bodies::FreeMotion& m : solver_.free_motions()) {
+    path_error_ = std::max(path_error_, bodies::path_error(m, items_[m.body].radius, h));
+    if (m.mean) moved.emplace_back(m.body, bodies::moved(m, scene_.bodies[m.body], items_[m.body].X_WO, h));
+  }
   for (const std::size_t i : in_world_) {
     Item& item = items_[i];
     if (!awake(item)) item.V_WO_W = Twist();
@@ -209,6 +174,8 @@ void BulletWorld::take_states() {
     item.V_WO_W.angular = from_bullet(item.bullet->getAngularVelocity());
     update_box(item);
   }
+  for (const auto& [body, state] : moved)
+    if (awake(items_[body])) put(body, state.X, state.velocity);
 }
 
 void BulletWorld::take_contacts() {
@@ -220,29 +187,16 @@ void BulletWorld::take_contacts() {
       const btManifoldPoint& point = manifold.getContactPoint(k);
       const double gap = point.getDistance() + 2.0 * contact_skin;
       if (!(point.m_appliedImpulse > 0.0) && gap > closed_gap) continue;
-      WorldContact c;
-      const bool first_is_body = a >= 0;
-      c.body = static_cast<std::size_t>(first_is_body ? a : b);
-      const int other = first_is_body ? b : a;
-      c.other = other >= 0 ? static_cast<std::size_t>(other) : bench;
-      const Vector3d n = from_bullet(point.m_normalWorldOnB);
-      Vector3d impulse = point.m_appliedImpulse * n +
-                         point.m_appliedImpulseLateral1 * from_bullet(point.m_lateralFrictionDir1) +
-                         point.m_appliedImpulseLateral2 * from_bullet(point.m_lateralFrictionDir2);
-      for (const DrivenSolver::Impact& impact : solver_.impacts()) {
-        if (impact.point == &point) impulse += impact.impulse_W;
-      }
-      c.n_W = first_is_body ? n : Vector3d(-n);
-      c.impulse_W = first_is_body ? impulse : Vector3d(-impulse);
-      c.p_W = 0.5 * from_bullet(point.getPositionWorldOnA() + point.getPositionWorldOnB());
-      c.depth = std::max(0.0, -gap);
+      WorldContact c = world_contact(point, a, b);
+      for (const DrivenSolver::Impact& impact : solver_.impacts())
+        if (impact.point == &point) c.impulse_W += (a >= 0 ? 1.0 : -1.0) * impact.impulse_W;
       contacts_.push_back(c);
     }
   }
 }
 
 void BulletWorld::begin_driving(std::vector<DrivenBody>& driven, double h) {
-  std::vector<DrivenSolver::Driven> for_solver;
+  std::vector<Driven> for_solver;
   for (DrivenBody& d : driven) {
     d.contact_W = d.impact_W = Wrench();
     Item& item = items_[d.body];
@@ -288,7 +242,7 @@ void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
   enter_what_is_near(h);
   for (const std::size_t i : in_world_) items_[i].X_at_query = items_[i].bullet->getWorldTransform();
   world_.stepSimulation(h, 0);
-  take_states();
+  take_states(h);
   take_contacts();
   end_driving(driven);
   const std::vector<std::size_t> still_there = in_world_;
@@ -380,7 +334,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     const double left = gap.gap - 2.0 * contact_skin;
     const bool near = left < may_go_unswept;
     const double approach =
-        near ? max_displacement(path, R_OW, most_O) : max_displacement_along(-gap.n_W, path, R_OW, most_O);
+        near ? path.max_displacement(R_OW, most_O) : path.max_displacement_along(-gap.n_W, R_OW, most_O);
     const double allowed = std::max(left, untouched ? 0.0 : may_go_unswept);
     if (allowed < part * approach) part = allowed / approach;
   };
@@ -388,7 +342,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
   const auto tolerance = [&](const geometry::BoxGap& gap, std::size_t other) {
     return untouched ? 0.0 : std::max(admissible(other), same_depth - gap.gap);
   };
-  const geometry::StraightMotion path = path_between(X0_WO, X1_WO);
+  const geometry::StraightMotion path = geometry::straight_motion(X0_WO, X1_WO);
   for (const geometry::OutlineBox& own : item.outline_O) {
     const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
     const geometry::BoxGap above = geometry::gap_above(here, scene_.bench_height);
@@ -405,8 +359,8 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     if (i == body || (!untouched && solver_.drove(other.bullet.get()) && !solver_.drove(item.bullet.get()))) continue;
     const RigidTransform X_before = untouched ? other.X_WO : pose_before_step(i);
     const RigidTransform X1_seen = X_before * other.X_WO.inverse() * X1_WO;
-    const geometry::StraightMotion relative = path_between(X0_WO, X1_seen);
-    const Vector3d most_O = extent_O.cwiseMin(reach(relative, X_before.translation(), other.radius));
+    const geometry::StraightMotion relative = geometry::straight_motion(X0_WO, X1_seen);
+    const Vector3d most_O = extent_O.cwiseMin(relative.reach(X_before.translation(), other.radius));
     for (const geometry::OutlineBox& own : item.outline_O) {
       const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
       for (const geometry::OutlineBox& box : other.outline_O) {
@@ -421,7 +375,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     }
     if (untouched || part < 1.0 || !item.shape || !other.shape) continue;
     const double allowed = std::max(admissible(i), depth_between(body, i, contacts_)) + same_depth;
-    const double moved = max_displacement(relative, R_OW, most_O);
+    const double moved = relative.max_displacement(R_OW, most_O);
     part = BulletShape::fraction_before(*item.shape, X0_WO * item.X_OB, X1_seen * item.X_OB, moved, *other.shape,
                                         X_before * other.X_OB, allowed);
   }
@@ -435,7 +389,9 @@ double BulletWorld::admissible_fraction_of_free() const {
     const double arc = item.radius * math::turn_between(before.X_WO, item.X_WO).norm();
     const double path = (item.X_WO.translation() - before.X_WO.translation()).norm() + arc;
     if (path < deepest_on_path) continue;
-    part = std::min(part, free_fraction(before.body, before.X_WO, item.X_WO, false, unswept_on(path)));
+    part = std::min(part,
+                    free_fraction(before.body, before.X_WO, item.X_WO, false,
+                                  path < unswept_of_free ? std::numeric_limits<double>::infinity() : unswept_of_free));
   }
   return part;
 }

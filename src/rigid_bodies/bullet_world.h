@@ -59,6 +59,8 @@ class BulletWorld final : public RigidWorld {
                     solver_.residual() > solved_to ? 0.5 : 1.0);
   }
   double admissible_fraction_of_free() const override;
+  double first_bounce() const override { return solver_.bounces_at(); }
+  double path_error() const override { return path_error_; }
   bool solved() const override {
     return solver_.residual() <= solved_to && solver_.deepest() <= deepest_solved && !dispatcher_.contacts_missing;
   }
@@ -112,7 +114,7 @@ class BulletWorld final : public RigidWorld {
   void begin_step();
   void begin_driving(std::vector<DrivenBody>& driven, double h);
   void end_driving(const std::vector<DrivenBody>& driven);
-  void take_states();
+  void take_states(double h);
   void take_contacts();
   btRigidBody& object(int index);  ///< by user index; the bench's is −1
   // Parts of exchange(); `objects` by user index, in Bullet's order.
@@ -135,12 +137,13 @@ class BulletWorld final : public RigidWorld {
   DispatcherForSleepers dispatcher_{&configuration_};
   BroadphaseOfAnyMemory broadphase_;
   friction::Surfaces surfaces_{scene::compliances(scene_)};
-  DrivenSolver solver_{surfaces_};
+  DrivenSolver solver_{surfaces_, scene_.gravity};
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   btStaticPlaneShape bench_shape_;
   std::unique_ptr<btRigidBody> bench_body_;
   std::vector<WorldContact> contacts_;
   std::vector<BeforeStep> before_step_;
+  double path_error_ = 0.0;
   long steps_ = 0;
 };
 

@@ -54,15 +54,22 @@ constexpr double closed_gap = 1e-5;
 /// [m] largest residual of the contacts of a solved step. Larger: friction is as much less exact. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 1e-3.
 constexpr double solved_to = 1e-6;
+/// [m] residual to which they are solved where nothing moves. Larger: stacks of unlike masses sink and drift. Test:
+/// none: 1e-6 in a minute of `contact_trials stack` alone.
+constexpr double rest_residual = 4e-8;
+/// The same as a fraction of the largest motion, up to `solved_to`. Larger: less exact. Test:
+/// ContactTrials.APegOfABoxGoesInWithATenthOfAMillimetre at 0.1.
+constexpr double residual_share = 1e-3;
 /// The same as a fraction of the largest motion without loads, if it takes few iterations to get there. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 0.1.
 constexpr double solved_share = 1e-4;
 /// [m] gap below which a contact is stopped by an impulse. Test: none: no value tried makes one fail.
 constexpr double closed = 5e-5;
+/// [s]; free bodies that would touch sooner bounce off each other now. Longer: before they touch. Test:
+/// RigidWorld.BallBouncesToTheSquareOfItsRestitution at 1e-3.
+constexpr double at_once = 1e-5;
 /// [s] in which a penetration by a driven body is corrected. Shorter: the correction becomes a velocity. Contact mode
 /// `stop` uses 5 ms: no reason known. Test: none: no value tried makes one fail.
 constexpr double recovery_time = 2e-3;
-/// [m/s] approach speed of a driven body below which it counts as none. Test: none: no value tried makes one fail.
-constexpr double slow = 1e-7;
 
 }  // namespace spring_workbench::rigid_bodies

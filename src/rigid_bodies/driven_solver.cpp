@@ -1,6 +1,7 @@
 #include "driven_solver.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "constants.h"
@@ -11,24 +12,11 @@ void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   driven_ = std::move(driven);
   surfaces_.begin_step(h);
   impacts_.clear();
+  motions_.clear();
   residual_ = deepest_ = 0.0;
+  bounces_at_ = std::numeric_limits<double>::infinity();
+  solved_h_ = h_;
   h_ = h;
-}
-
-const DrivenSolver::Driven* DrivenSolver::driven_of(std::size_t solver_body) const {
-  return driven_of(m_tmpSolverBodyPool[static_cast<int>(solver_body)].m_originalBody);
-}
-
-const DrivenSolver::Driven* DrivenSolver::driven_of(const btRigidBody* bullet) const {
-  const auto found = std::find_if(driven_.begin(), driven_.end(), [&](const Driven& d) { return d.bullet == bullet; });
-  return bullet == nullptr || found == driven_.end() ? nullptr : &*found;
-}
-
-bool DrivenSolver::drives(const Contact& c) const { return driven_of(c.a) != nullptr || driven_of(c.b) != nullptr; }
-
-bool DrivenSolver::pushes(std::size_t solver_body) const {
-  return driven_of(solver_body) == nullptr &&
-         !m_tmpSolverBodyPool[static_cast<int>(solver_body)].internalGetInvMass().isZero();
 }
 
 Eigen::MatrixXd DrivenSolver::response(std::size_t solver_body, bool impact) const {
@@ -37,12 +25,7 @@ Eigen::MatrixXd DrivenSolver::response(std::size_t solver_body, bool impact) con
     return impact ? driven->body->mobility : Matrix6d(driven->body->compliance / (h_ * h_));
   }
   if (!pushes(solver_body)) return Eigen::MatrixXd(0, 0);
-  const btSolverBody& body = m_tmpSolverBodyPool[static_cast<int>(solver_body)];
-  Matrix6d response = Matrix6d::Zero();
-  response.diagonal().head<3>() = from_bullet(body.internalGetInvMass());
-  const btMatrix3x3& inverse_inertia = body.m_originalBody->getInvInertiaTensorWorld();
-  for (int i = 0; i < 3; ++i) response.block<1, 3>(3 + i, 3) = from_bullet(inverse_inertia[i]).transpose();
-  return response;
+  return mobility_of(m_tmpSolverBodyPool[static_cast<int>(solver_body)]);
 }
 
 Vector6d DrivenSolver::velocity(std::size_t solver_body, bool at_start) const {
@@ -61,26 +44,18 @@ Vector3d DrivenSolver::motion(const Contact& contact, bool at_start) const {
 
 DrivenSolver::Contact DrivenSolver::make_contact(int index, const btContactSolverInfo& info) const {
   const btSolverConstraint& along = m_tmpSolverContactConstraintPool[index];
-  Contact contact;
-  contact.point = static_cast<btManifoldPoint*>(along.m_originalContactPoint);
-  contact.a = static_cast<std::size_t>(along.m_solverBodyIdA);
-  contact.b = static_cast<std::size_t>(along.m_solverBodyIdB);
-  for (int k = 0; k < 3; ++k) {
-    const btSolverConstraint& c =
-        k == 0 ? along : m_tmpSolverContactFrictionConstraintPool[along.m_frictionIndex + k - 1];
-    contact.J_a.row(k) = both(c.m_contactNormal1, c.m_relpos1CrossNormal).transpose();
-    contact.J_b.row(k) = both(c.m_contactNormal2, c.m_relpos2CrossNormal).transpose();
-    contact.missing[k] = c.m_jacDiagABInv > 0.0 ? c.m_rhs / c.m_jacDiagABInv : 0.0;
-  }
+  Contact contact = contact_of(along, m_tmpSolverContactFrictionConstraintPool);
   contact.impulse = {contact.point->m_appliedImpulse, contact.point->m_appliedImpulseLateral1,
-                     contact.point->m_appliedImpulseLateral2};  // where the search starts
+                     contact.point->m_appliedImpulseLateral2};
+  contact.impulse *= h_ / solved_h_;  // where the search starts
   contact.friction = along.m_friction;
   contact.gap = contact.point->getDistance() + info.m_linearSlop;
   contact.motion = motion(contact, false);
   // Bullet's own is by Newton's law of restitution.
-  const bool by_bullet = !drives(contact) && !(contact.point->m_combinedRestitution > 0.0);
-  if (!by_bullet) contact.missing[0] = missing_along_normal(contact, info);
+  if (drives(contact) || contact.point->m_combinedRestitution > 0.0)
+    contact.missing[0] = missing_along_normal(contact, info);
   contact.restitution = restitution(contact);
+  contact.closes_at = time_to_close(contact.gap, -motion(contact, true)[0], gravity_);
   return contact;
 }
 
@@ -109,10 +84,6 @@ void DrivenSolver::obey_surfaces(std::vector<Contact>& contacts) {
   }
 }
 
-bool DrivenSolver::closes_fast(const Contact& contact) const {
-  return -motion(contact, true)[0] > std::max(scene::rest_speed, contact.gap / h_);
-}
-
 double DrivenSolver::missing_along_normal(const Contact& contact, const btContactSolverInfo& info) const {
   const double left = contact.gap / h_;
   if (!drives(contact)) return -contact.motion[0] - std::max(0.0, left);  // a penetration is undone by Bullet
@@ -126,7 +97,7 @@ double DrivenSolver::restitution(const Contact& contact) const {
   // Driven bodies bounce where they are stopped. What is deeper than a path leads, between triangles that push to both
   // sides, does not: bounces off both have no end.
   if (drives(contact) || contact.gap < -unswept_of_free) return 0.0;
-  return closes_fast(contact) ? contact.point->m_combinedRestitution : 0.0;
+  return -motion(contact, true)[0] > scene::rest_speed ? contact.point->m_combinedRestitution : 0.0;
 }
 
 void DrivenSolver::solve_once(std::vector<Contact>& contacts, bool impact, bool bounces,
@@ -145,7 +116,7 @@ void DrivenSolver::solve_once(std::vector<Contact>& contacts, bool impact, bool 
     }
     surfaces_.add_part(problem_, c.surface, c.n_W);
   }
-  residual_ = std::max(residual_, h_ * problem_.solve(solved_share, solved_to / h_).residual);
+  residual_ = std::max(residual_, h_ * problem_.solve(solved_share, enough_).residual);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     contacts[i].impulse = (bounces ? Vector3d::Zero() : contacts[i].impulse) + problem_.load(i);
     surfaces_.add_load(contacts[i].surface, contacts[i].n_W, problem_.load(i)[0]);
@@ -168,17 +139,24 @@ void DrivenSolver::solve(std::vector<Contact>& contacts, bool impact, std::vecto
   solve_once(contacts, impact, false, change);
 }
 
-std::vector<Vector6d> DrivenSolver::stop_approaches(const std::vector<Contact>& contacts) {
+std::vector<Vector6d> DrivenSolver::stop_approaches(std::vector<Contact>& contacts) {
   std::vector<Contact> closed_ones;
   bool approach = false;
-  for (const Contact& contact : contacts) {
-    if (contact.gap > closed) continue;
+  for (Contact& contact : contacts) {
+    const bool bounces_now = contact.restitution > 0.0 && contact.closes_at <= at_once;
+    if (contact.restitution > 0.0 && !bounces_now) {
+      bounces_at_ = std::min(bounces_at_, contact.closes_at);
+      contact.friction = 0.0;  // it is as good as open if the step ends there
+    }
+    contact.restitution = 0.0;
+    if (contact.gap > closed && !bounces_now) continue;
     Contact c = contact;
     c.motion = motion(contact, true);
     c.missing = -c.motion;
     c.impulse.setZero();
-    approach = approach || (drives(c) && c.missing[0] > slow);
-    const bool bounces = c.missing[0] > scene::rest_speed && !surfaces_.complies(c.surface);
+    approach = approach || bounces_now || (drives(c) && c.missing[0] * h_ > 0.1 * solved_to);
+    const bool bounces =
+        bounces_now || (drives(c) && c.missing[0] > scene::rest_speed && !surfaces_.complies(c.surface));
     c.restitution = bounces ? c.point->m_combinedRestitution : 0.0;
     closed_ones.push_back(c);
   }
@@ -188,7 +166,7 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(const std::vector<Contact>& 
   for (const Contact& c : closed_ones) {
     impacts_.push_back({c.point, c.J_a.leftCols<3>().transpose() * c.impulse});
     load_driven(c, c.impulse, &DrivenBody::impact_W);
-    if (drives(c)) surfaces_.stop(c.surface);
+    if (drives(c) || c.restitution > 0.0) surfaces_.stop(c.surface);
   }
   for (std::size_t i = 0; i < change.size(); ++i) {
     if (const Driven* driven = driven_of(i))
@@ -204,20 +182,23 @@ void DrivenSolver::load_driven(const Contact& contact, const Vector3d& load, Wre
 }
 
 void DrivenSolver::hand_back(const std::vector<Contact>& contacts, const std::vector<Vector6d>& change) {
-  for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
-    btSolverBody& body = m_tmpSolverBodyPool[i];
-    const Vector6d& c = change[static_cast<std::size_t>(i)];
-    body.internalGetDeltaLinearVelocity() = to_bullet(Vector3d(c.head<3>()));
-    body.internalGetDeltaAngularVelocity() = to_bullet(Vector3d(c.tail<3>()));
-  }
+  take_changes(change, m_tmpSolverBodyPool);
   for (const Contact& contact : contacts) {
-    contact.point->m_appliedImpulse = contact.impulse[0];
-    contact.point->m_appliedImpulseLateral1 = contact.impulse[1];
-    contact.point->m_appliedImpulseLateral2 = contact.impulse[2];
+    contact.keep_impulse();
     load_driven(contact, contact.impulse / h_, &DrivenBody::contact_W);
     if (contact.impulse[0] > 0.0 && (surfaces_.complies(contact.surface) || !drives(contact)))
       surfaces_.note_pressed(contact.surface, contact.n_W);
   }
+}
+
+void DrivenSolver::find_motions(const btContactSolverInfo& info, std::vector<Contact>& contacts,
+                                const std::vector<Vector6d>& by_impact, const std::vector<Vector6d>& change) {
+  std::vector<friction::BodyVelocities> velocities(change.size());
+  for (std::size_t i = 0; i < change.size(); ++i)
+    velocities[i] = {velocity(i, true) + by_impact[i], velocity(i, false) + change[i], pushes(i)};
+  for (Contact& c : contacts) c.by_end_velocity = c.surface >= 0 || drives(c);
+  const auto found = free_motions_of(info, m_tmpSolverBodyPool, velocities, contacts, h_);
+  motions_.insert(motions_.end(), found.begin(), found.end());
 }
 
 btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -228,9 +209,15 @@ btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bod
   solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count, constraints,
                                                 constraint_count, info, debug);
   follow_corrections(info, m_tmpSolverBodyPool, contacts, [&](const Contact& c) { return drives(c); });
-  std::vector<Vector6d> change = stop_approaches(contacts);
+  double speed = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m_tmpSolverBodyPool.size()); ++i)
+    speed = std::max(speed, velocity(i, true).head<3>().norm());
+  enough_ = std::clamp(residual_share * speed, rest_residual / h_, solved_to / h_);
+  const std::vector<Vector6d> by_impact = stop_approaches(contacts);
+  std::vector<Vector6d> change = by_impact;
   obey_surfaces(contacts);
   solve(contacts, false, change);
+  find_motions(info, contacts, by_impact, change);
   hand_back(contacts, change);
   return 0.0;
 }

@@ -63,6 +63,9 @@ class DynamicStepper {
   /// Carries all bodies over one substep with contact. If a body would then penetrate another too deeply or pass
   /// through it, all bodies are restored and `h` is set to a shorter substep to try, unless none is short enough.
   Result step_in_contact(std::vector<Candidate> candidates, double& h);
+  /// Returns how much of a substep to take, after the world has been advanced over it: until bodies bounce, or as long
+  /// as paths are exact enough.
+  double admissible_substep(double h);
   /// Advances the world over a substep, and returns the contact wrenches on the held bodies, which are still at its
   /// start.
   std::vector<rigid_bodies::DrivenBody> solve(const std::vector<Candidate>& candidates, double h);
@@ -82,6 +85,7 @@ class DynamicStepper {
   std::vector<rigid_bodies::WorldContact> contacts_;
   std::vector<std::size_t> held_;         ///< indices in the scene of the bodies held in the last step
   std::map<std::size_t, Wrench> load_W_;  ///< contact loads on held bodies in the last substep
+  double substep_;                        ///< longest substep in contact that should keep `max_path_error` [s]
   double min_substep_ = 0.0;              ///< [s] of the present step
 };
 

@@ -15,7 +15,9 @@ struct BouncingContact {
   Vector3d motion;           ///< velocity without the impulses of this solution [m/s]
   Vector3d impulse;          ///< [N·s]
   double friction = 0.0;
-  double restitution = 0.0;  ///< fraction of the normal impulse that is returned
+  double restitution = 0.0;      ///< fraction of the normal impulse that is returned
+  double gap = 0.0;              ///< at the start of the step [m]
+  bool by_end_velocity = false;  ///< see move_with_mean_velocity()
 
   /// Change of the contact's velocity due to changes of the velocities of all bodies.
   Vector3d by(const std::vector<Vector6d>& change) const { return J_a * change[a] + J_b * change[b]; }

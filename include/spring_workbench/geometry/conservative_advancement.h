@@ -10,7 +10,17 @@ struct StraightMotion {
   Vector3d p_WO = Vector3d::Zero();    ///< position of the body's origin at f = 0 [m]
   Vector3d move_W = Vector3d::Zero();  ///< [m]
   Vector3d turn_W = Vector3d::Zero();  ///< [rad]
+
+  /// How far from its origin the body can touch what is within `radius` of a point [m].
+  double reach(const Vector3d& p_W, double radius) const { return (p_W - p_WO).norm() + move_W.norm() + radius; }
+  /// How far the body's points can go that are no further from its origin than `most_O` along its own axes: in any
+  /// direction, and along one [m].
+  double max_displacement(const Matrix3d& R_OW, const Vector3d& most_O) const;
+  double max_displacement_along(const Vector3d& n_W, const Matrix3d& R_OW, const Vector3d& most_O) const {
+    return n_W.dot(move_W) + (R_OW * n_W.cross(turn_W)).cwiseAbs().dot(most_O);
+  }
 };
+StraightMotion straight_motion(const RigidTransform& X0_WO, const RigidTransform& X1_WO);
 
 /// The half-space n·x < height.
 struct HalfSpace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -39,6 +40,15 @@ struct WorldContact {
 
   void exchange(math::StateArchive& state) { state(body, other, p_W, n_W, depth, impulse_W); }
 };
+
+/// Of two bodies in each other, by their contacts [m].
+inline double depth_between(std::size_t a, std::size_t b, const std::vector<WorldContact>& contacts) {
+  double depth = 0.0;
+  for (const WorldContact& c : contacts) {
+    if ((c.body == a && c.other == b) || (c.body == b && c.other == a)) depth = std::max(depth, c.depth);
+  }
+  return depth;
+}
 
 /// Rigid-body world of all bodies of the scene, for contact mode `dynamic` (doc/model.md). Friction is Coulomb's with a
 /// round cone, the pair's coefficients are geometric means. Bodies at rest fall asleep and leave the world until
@@ -87,6 +97,13 @@ class RigidWorld {
   /// Fraction (0 … 1) of the last step over which the free bodies have certainly not passed through anything 1 mm
   /// thick.
   virtual double admissible_fraction_of_free() const = 0;
+  /// Time from the start of the last step to the next moment at which two free bodies touch and bounce off each other
+  /// [s], or more; infinite if none approach. If the step was longer, it has to be undone and repeated with that
+  /// duration: bodies bounce only at the start of a step.
+  virtual double first_bounce() const = 0;
+  /// Estimate of the largest error of a free body's path in the last step [m], of any of its points, as far as it is
+  /// due to the length of the step; for a body that touches nothing it is zero.
+  virtual double path_error() const = 0;
   /// Returns whether the contacts of the last step were solved to 1 µm, none of rigid materials was deeper than 0.1 mm
   /// at its start, and none is known to be missing.
   virtual bool solved() const = 0;
