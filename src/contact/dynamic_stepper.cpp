@@ -168,13 +168,13 @@ double DynamicStepper::predicted_admissible_fraction(const std::vector<rigid_bod
   return admissible;
 }
 
-void DynamicStepper::block(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome) {
+void DynamicStepper::block(const std::vector<bodies::SteppedBody*>& held, double& h, Outcome& outcome) {
   std::vector<rigid_bodies::DrivenBody> driven(held.size());
   for (std::size_t i = 0; i < held.size(); ++i) {
     driven[i].body = held[i]->index();
     driven[i].X_WO = held[i]->object().X;
   }
-  world_->step(h, driven);
+  h = step_until_bounce(*world_, h, driven);
   for (bodies::SteppedBody* body : held) {
     body->block(h);
     take(*body, Wrench());

@@ -20,6 +20,17 @@ inline RigidTransform predicted_end(const rigid_bodies::DrivenBody& d) {
   return end;
 }
 
+/// Advances the world by `h` [s], or only until bodies bounce; returns by how much.
+inline double step_until_bounce(rigid_bodies::RigidWorld& world, double h,
+                                std::vector<rigid_bodies::DrivenBody>& driven) {
+  world.step(h, driven);
+  if (!(world.first_bounce() < h)) return h;
+  const double until_bounce = world.first_bounce();
+  world.undo_step();
+  world.step(until_bounce, driven);
+  return until_bounce;
+}
+
 inline void swap_bodies(rigid_bodies::WorldContact& c) {
   std::swap(c.body, c.other);
   c.n_W = -c.n_W;

@@ -74,5 +74,8 @@ constexpr int bounce_iterations = 20;
 /// [m] by which a free body may be deeper after a step with its mean velocity than after one with its end velocity.
 /// Larger: bodies sink in. Test: LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 1e-4.
 constexpr double as_deep = 1e-7;
+/// Share of the largest friction by which that of a contact that sticks is smaller. Larger: what has just come to rest
+/// counts as sliding. Test: MeanVelocity.WhatBeginsToStickMovesWithItsEndVelocity at 0.9.
+constexpr double slip_share = 1e-6;
 
 }  // namespace spring_workbench::friction

@@ -1,6 +1,7 @@
 #include "spring_workbench/friction/mean_velocity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "constants.h"
@@ -34,17 +35,25 @@ std::vector<bool> move_with_mean_velocity(const std::vector<BodyVelocities>& bod
   for (const BouncingContact* c : contacts) {
     if (c->impulse[0] > 0.0 && bodies[c->a].free && bodies[c->b].free) groups.join(c->a, c->b);
   }
-  for (const BouncingContact* c : contacts) {
-    if (c->impulse[0] > 0.0 && c->by_end_velocity) exclude(*c);
-  }
-  const auto goes_deeper = [&](const BouncingContact* contact) {
-    const BouncingContact& c = *contact;
-    double gap = c.gap, lead = 0.0;
+  const auto lead_of = [&](const BouncingContact& c) {
+    Vector3d lead = Vector3d::Zero();
     for (const auto& [body, J] : {std::pair(c.a, &c.J_a), std::pair(c.b, &c.J_b)}) {
-      const BodyVelocities& b = bodies[body];
-      gap += h * J->row(0).dot(b.end);
-      if (b.free && mean[of(body)]) lead += 0.5 * h * J->row(0).dot(b.start - b.end);
+      if (bodies[body].free && mean[of(body)]) lead += 0.5 * h * *J * (bodies[body].start - bodies[body].end);
     }
+    return lead;
+  };
+  // A load is constant if its contact neither closes, opens nor begins to stick in the step.
+  const auto is_steady = [&](const BouncingContact& c) {
+    const Vector3d lead = lead_of(c);
+    const bool sticks = c.impulse.tail<2>().norm() < (1.0 - slip_share) * c.friction * c.impulse[0];
+    return std::abs(lead[0]) <= as_deep && (!sticks || lead.tail<2>().norm() <= as_deep);
+  };
+  for (const BouncingContact* c : contacts) {
+    if (c->impulse[0] > 0.0 && (c->by_end_velocity || !is_steady(*c))) exclude(*c);
+  }
+  const auto goes_deeper = [&](const BouncingContact* c) {
+    const double lead = lead_of(*c)[0];
+    const double gap = c->gap + h * (c->J_a * bodies[c->a].end + c->J_b * bodies[c->b].end)[0];
     return lead < 0.0 && gap + lead < std::min(gap, 0.0) - as_deep;
   };
   for (auto c = contacts.begin(); c != contacts.end();) {

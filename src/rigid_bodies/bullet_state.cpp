@@ -91,7 +91,7 @@ void BulletWorld::exchange(math::StateArchive& state) {
     state(item.X_WO, item.V_WO_W, item.near_at, item.in_world);
     if (state.sets()) update_box(item);
   }
-  state(steps_, in_world_, objects, surfaces_, solver_);
+  state(steps_, in_world_, objects, surfaces_);
   if (state.sets()) {
     for (const int index : objects) {
       if (index >= 0 && !items_.at(static_cast<std::size_t>(index)).bullet)

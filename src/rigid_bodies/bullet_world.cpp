@@ -145,7 +145,7 @@ Extent BulletWorld::path_of(std::size_t index, double h) const {
   Extent box = geometry::bounding_box(item.box_O, item.X_WO);
   const double arc = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
   box.extend(Extent(box).translate(h * item.V_WO_W.linear));
-  return geometry::grown(box, arc + margin_near);
+  return geometry::grown(box, arc + margin_near + 0.5 * scene_.gravity * h * h);
 }
 
 std::vector<std::size_t> BulletWorld::inside(const Extent& box_W) const {
@@ -178,18 +178,18 @@ void BulletWorld::take_states(double h) {
     if (awake(items_[body])) put(body, state.X, state.velocity);
 }
 
-void BulletWorld::take_contacts() {
+void BulletWorld::take_contacts(double h) {
   contacts_.clear();
   for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
     const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
     const int a = manifold.getBody0()->getUserIndex(), b = manifold.getBody1()->getUserIndex();
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
-      const double gap = point.getDistance() + 2.0 * contact_skin;
-      if (!(point.m_appliedImpulse > 0.0) && gap > closed_gap) continue;
-      WorldContact c = world_contact(point, a, b);
-      for (const DrivenSolver::Impact& impact : solver_.impacts())
-        if (impact.point == &point) c.impulse_W += (a >= 0 ? 1.0 : -1.0) * impact.impulse_W;
+      const Vector3d impact_W = solver_.impact_on(point);
+      const bool is_open = point.getDistance() + 2.0 * contact_skin > closed_gap;
+      if (is_open && !(point.m_appliedImpulse > 0.0) && impact_W.isZero(0.0)) continue;
+      WorldContact c = world_contact(point, a, b, h);
+      c.impulse_W += (a >= 0 ? 1.0 : -1.0) * impact_W;
       contacts_.push_back(c);
     }
   }
@@ -243,7 +243,7 @@ void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
   for (const std::size_t i : in_world_) items_[i].X_at_query = items_[i].bullet->getWorldTransform();
   world_.stepSimulation(h, 0);
   take_states(h);
-  take_contacts();
+  take_contacts(h);
   end_driving(driven);
   const std::vector<std::size_t> still_there = in_world_;
   for (const std::size_t i : still_there) {

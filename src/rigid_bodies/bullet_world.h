@@ -115,7 +115,7 @@ class BulletWorld final : public RigidWorld {
   void begin_driving(std::vector<DrivenBody>& driven, double h);
   void end_driving(const std::vector<DrivenBody>& driven);
   void take_states(double h);
-  void take_contacts();
+  void take_contacts(double h);
   btRigidBody& object(int index);  ///< by user index; the bench's is −1
   // Parts of exchange(); `objects` by user index, in Bullet's order.
   void exchange_body(math::StateArchive& state, int index);

@@ -15,7 +15,6 @@ void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   motions_.clear();
   residual_ = deepest_ = 0.0;
   bounces_at_ = std::numeric_limits<double>::infinity();
-  solved_h_ = h_;
   h_ = h;
 }
 
@@ -45,9 +44,7 @@ Vector3d DrivenSolver::motion(const Contact& contact, bool at_start) const {
 DrivenSolver::Contact DrivenSolver::make_contact(int index, const btContactSolverInfo& info) const {
   const btSolverConstraint& along = m_tmpSolverContactConstraintPool[index];
   Contact contact = contact_of(along, m_tmpSolverContactFrictionConstraintPool);
-  contact.impulse = {contact.point->m_appliedImpulse, contact.point->m_appliedImpulseLateral1,
-                     contact.point->m_appliedImpulseLateral2};
-  contact.impulse *= h_ / solved_h_;  // where the search starts
+  contact.impulse = h_ * contact.force_before();  // where the search starts
   contact.friction = along.m_friction;
   contact.gap = contact.point->getDistance() + info.m_linearSlop;
   contact.motion = motion(contact, false);
@@ -68,7 +65,8 @@ std::vector<DrivenSolver::Contact> DrivenSolver::make_contacts(const btContactSo
     if (!surfaces_.none()) {
       const auto [a, b] = bodies_of(*c.point, manifolds, manifold_count);
       c.n_W = (a < b ? 1.0 : -1.0) * from_bullet(c.point->m_normalWorldOnB);
-      c.surface = surfaces_.between(a, b, c.n_W, closes_fast(c));
+      c.surface = surfaces_.between(a, b, c.n_W, c.restitution > 0.0 || closes_fast(c));
+      if (surfaces_.complies(c.surface)) c.restitution = 0.0;
     }
     // An indentation is no penetration, neither deep nor for Bullet to undo; those of driven bodies are by loads.
     if (c.surface >= 0 || drives(c)) m_tmpSolverContactConstraintPool[i].m_rhsPenetration = 0.0;
@@ -80,7 +78,8 @@ std::vector<DrivenSolver::Contact> DrivenSolver::make_contacts(const btContactSo
 void DrivenSolver::obey_surfaces(std::vector<Contact>& contacts) {
   for (Contact& c : contacts) {
     if (surfaces_.complies(c.surface)) c.comply(h_);
-    if (surfaces_.collides(c.surface)) c.stops = !drives(c) && closes_fast(c);
+    const bool bounces_later = c.point->m_combinedRestitution > 0.0 && c.closes_at > at_once;
+    if (surfaces_.collides(c.surface)) c.stops = !drives(c) && !bounces_later && closes_fast(c);
   }
 }
 
@@ -146,7 +145,8 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(std::vector<Contact>& contac
     const bool bounces_now = contact.restitution > 0.0 && contact.closes_at <= at_once;
     if (contact.restitution > 0.0 && !bounces_now) {
       bounces_at_ = std::min(bounces_at_, contact.closes_at);
-      contact.friction = 0.0;  // it is as good as open if the step ends there
+      contact.friction = contact.restitution = 0.0;  // it is as good as open if the step ends there
+      continue;
     }
     contact.restitution = 0.0;
     if (contact.gap > closed && !bounces_now) continue;
@@ -164,7 +164,8 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(std::vector<Contact>& contac
   if (!approach) return change;
   solve(closed_ones, true, change);
   for (const Contact& c : closed_ones) {
-    impacts_.push_back({c.point, c.J_a.leftCols<3>().transpose() * c.impulse});
+    const auto axes = (c.J_a.isZero(0.0) ? SolverContact::Jacobian(-c.J_b) : c.J_a).leftCols<3>();
+    impacts_.emplace_back(c.point, axes.transpose() * c.impulse);
     load_driven(c, c.impulse, &DrivenBody::impact_W);
     if (drives(c) || c.restitution > 0.0) surfaces_.stop(c.surface);
   }
@@ -173,6 +174,13 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(std::vector<Contact>& contac
       change[i] = driven->body->displacement_by_impulse * to_vector(driven->body->impact_W) / h_;
   }
   return change;
+}
+
+Vector3d DrivenSolver::impact_on(const btManifoldPoint& point) const {
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& [stopped, impulse_W] : impacts_)
+    if (stopped == &point) sum += impulse_W;
+  return sum;
 }
 
 void DrivenSolver::load_driven(const Contact& contact, const Vector3d& load, Wrench DrivenBody::*to) const {
@@ -184,7 +192,7 @@ void DrivenSolver::load_driven(const Contact& contact, const Vector3d& load, Wre
 void DrivenSolver::hand_back(const std::vector<Contact>& contacts, const std::vector<Vector6d>& change) {
   take_changes(change, m_tmpSolverBodyPool);
   for (const Contact& contact : contacts) {
-    contact.keep_impulse();
+    contact.keep_force(h_);
     load_driven(contact, contact.impulse / h_, &DrivenBody::contact_W);
     if (contact.impulse[0] > 0.0 && (surfaces_.complies(contact.surface) || !drives(contact)))
       surfaces_.note_pressed(contact.surface, contact.n_W);
@@ -197,8 +205,7 @@ void DrivenSolver::find_motions(const btContactSolverInfo& info, std::vector<Con
   for (std::size_t i = 0; i < change.size(); ++i)
     velocities[i] = {velocity(i, true) + by_impact[i], velocity(i, false) + change[i], pushes(i)};
   for (Contact& c : contacts) c.by_end_velocity = c.surface >= 0 || drives(c);
-  const auto found = free_motions_of(info, m_tmpSolverBodyPool, velocities, contacts, h_);
-  motions_.insert(motions_.end(), found.begin(), found.end());
+  add_free_motions(info, m_tmpSolverBodyPool, velocities, contacts, h_, motions_);
 }
 
 btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bullet_types.h"
@@ -22,14 +23,8 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   /// The driven bodies of the next step, which lasts `h` [s].
   void set_driven(std::vector<Driven> driven, double h);
 
-  void exchange(math::StateArchive& state) { state(h_); }
-
-  /// What stopped a contact at the start of the last step.
-  struct Impact {
-    const btManifoldPoint* point;
-    Vector3d impulse_W;  ///< on the manifold's first body [N·s]
-  };
-  const std::vector<Impact>& impacts() const { return impacts_; }
+  /// What stopped a contact at the start of the last step, on the manifold's first body [N·s].
+  Vector3d impact_on(const btManifoldPoint& point) const;
   /// Largest distance of a contact of the last step from its law [m]; see friction::ContactProblem.
   double residual() const { return residual_; }
   /// Whether a body was driven in it.
@@ -81,11 +76,10 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   void hand_back(const std::vector<Contact>& contacts, const std::vector<Vector6d>& change);
 
   std::vector<Driven> driven_;
-  std::vector<Impact> impacts_;
+  std::vector<std::pair<const btManifoldPoint*, Vector3d>> impacts_;  ///< see impact_on()
   std::vector<bodies::FreeMotion> motions_;
   double h_ = 1.0;
-  double solved_h_ = 1.0;  ///< step that the impulses of Bullet's contacts are of [s]
-  double enough_ = 0.0;    ///< residual to which contacts are solved [m/s]
+  double enough_ = 0.0;  ///< residual to which contacts are solved [m/s]
   double residual_ = 0.0, deepest_ = 0.0, bounces_at_ = 0.0;
   double gravity_;
   friction::ContactProblem problem_;

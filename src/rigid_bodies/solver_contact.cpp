@@ -13,10 +13,14 @@ const Driven* find(const std::vector<Driven>& driven, const btRigidBody* bullet)
   return bullet == nullptr || found == driven.end() ? nullptr : &*found;
 }
 
-void SolverContact::keep_impulse() const {
-  point->m_appliedImpulse = impulse[0];
-  point->m_appliedImpulseLateral1 = impulse[1];
-  point->m_appliedImpulseLateral2 = impulse[2];
+void SolverContact::keep_force(double h) const {
+  point->m_appliedImpulse = impulse[0] / h;
+  point->m_appliedImpulseLateral1 = impulse[1] / h;
+  point->m_appliedImpulseLateral2 = impulse[2] / h;
+}
+
+Vector3d SolverContact::force_before() const {
+  return {point->m_appliedImpulse, point->m_appliedImpulseLateral1, point->m_appliedImpulseLateral2};
 }
 
 SolverContact contact_of(const btSolverConstraint& along, const btConstraintArray& across) {
@@ -55,11 +59,10 @@ void take_changes(const std::vector<Vector6d>& change, btAlignedObjectArray<btSo
   }
 }
 
-std::vector<bodies::FreeMotion> free_motions_of(const btContactSolverInfo& info,
-                                                const btAlignedObjectArray<btSolverBody>& bodies,
-                                                const std::vector<friction::BodyVelocities>& velocities,
-                                                std::vector<SolverContact>& contacts, double h) {
-  std::vector<bodies::FreeMotion> all(velocities.size()), free;
+void add_free_motions(const btContactSolverInfo& info, const btAlignedObjectArray<btSolverBody>& bodies,
+                      const std::vector<friction::BodyVelocities>& velocities, std::vector<SolverContact>& contacts,
+                      double h, std::vector<bodies::FreeMotion>& motions) {
+  std::vector<bodies::FreeMotion> all(velocities.size());
   for (const SolverContact& c : contacts) {
     if (!(c.impulse[0] > 0.0)) continue;
     for (const auto& [body, J] : {std::pair(c.a, &c.J_a), std::pair(c.b, &c.J_b)}) {
@@ -71,7 +74,7 @@ std::vector<bodies::FreeMotion> free_motions_of(const btContactSolverInfo& info,
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!velocities[i].free) continue;
     const btSolverBody& body = bodies[static_cast<int>(i)];
-    bodies::FreeMotion& m = free.emplace_back(all[i]);
+    bodies::FreeMotion& m = motions.emplace_back(all[i]);
     m.body = static_cast<std::size_t>(body.m_originalBody->getUserIndex());
     m.start_W = to_twist(velocities[i].start);
     m.change_W = to_twist(velocities[i].end - velocities[i].start);
@@ -79,19 +82,18 @@ std::vector<bodies::FreeMotion> free_motions_of(const btContactSolverInfo& info,
     m.push_W = to_twist(h * both(body.m_pushVelocity, info.m_splitImpulseTurnErp * body.m_turnVelocity));
     m.mean = mean[i];
   }
-  return free;
 }
 
-WorldContact world_contact(const btManifoldPoint& point, int a, int b) {
+WorldContact world_contact(const btManifoldPoint& point, int a, int b, double h) {
   WorldContact c;
   const double sign = a >= 0 ? 1.0 : -1.0;  // the bench is never the first
   c.body = static_cast<std::size_t>(a >= 0 ? a : b);
-  const int other = a >= 0 ? b : a;
-  c.other = other >= 0 ? static_cast<std::size_t>(other) : RigidWorld::bench;
+  c.other = std::min(a, b) < 0 ? RigidWorld::bench : static_cast<std::size_t>(b);
   c.n_W = sign * from_bullet(point.m_normalWorldOnB);
-  c.impulse_W = sign * Vector3d(point.m_appliedImpulse * from_bullet(point.m_normalWorldOnB) +
-                                point.m_appliedImpulseLateral1 * from_bullet(point.m_lateralFrictionDir1) +
-                                point.m_appliedImpulseLateral2 * from_bullet(point.m_lateralFrictionDir2));
+  c.impulse_W = sign * h *
+                Vector3d(point.m_appliedImpulse * from_bullet(point.m_normalWorldOnB) +
+                         point.m_appliedImpulseLateral1 * from_bullet(point.m_lateralFrictionDir1) +
+                         point.m_appliedImpulseLateral2 * from_bullet(point.m_lateralFrictionDir2));
   c.p_W = 0.5 * from_bullet(point.getPositionWorldOnA() + point.getPositionWorldOnB());
   c.depth = std::max(0.0, -point.getDistance() - 2.0 * contact_skin);
   return c;

@@ -30,8 +30,9 @@ struct SolverContact : friction::BouncingContact {
   int surface = -1;        ///< of friction::Surfaces
   Vector3d n_W;            ///< normal, from the body with the lower user index; set if it has a surface
 
-  /// Lets Bullet remember the impulse.
-  void keep_impulse() const;
+  /// Lets Bullet remember the force over a step of `h` [s]; and that of the last step [N].
+  void keep_force(double h) const;
+  Vector3d force_before() const;
   bool collides() const { return stops || restitution > 0.0; }
   /// Asks for the law of a surface that complies, over a step of `h` [s].
   void comply(double h) {
@@ -58,14 +59,13 @@ Matrix6d mobility_of(const btSolverBody& body);
 /// Changes the velocities of Bullet's bodies.
 void take_changes(const std::vector<Vector6d>& change, btAlignedObjectArray<btSolverBody>& bodies);
 
-/// How the free ones of Bullet's bodies move over a step of `h` [s].
-std::vector<bodies::FreeMotion> free_motions_of(const btContactSolverInfo& info,
-                                                const btAlignedObjectArray<btSolverBody>& bodies,
-                                                const std::vector<friction::BodyVelocities>& velocities,
-                                                std::vector<SolverContact>& contacts, double h);
+/// Adds how the free ones of Bullet's bodies move over a step of `h` [s].
+void add_free_motions(const btContactSolverInfo& info, const btAlignedObjectArray<btSolverBody>& bodies,
+                      const std::vector<friction::BodyVelocities>& velocities, std::vector<SolverContact>& contacts,
+                      double h, std::vector<bodies::FreeMotion>& motions);
 
-/// Contact of the world, of bodies with these user indices, without the impulses at the start of the step.
-WorldContact world_contact(const btManifoldPoint& point, int a, int b);
+/// Contact of the world after a step of `h` [s], of bodies with these user indices, without the impulses at its start.
+WorldContact world_contact(const btManifoldPoint& point, int a, int b, double h);
 
 /// Returns the user indices of the two bodies of a contact, which is in one of the manifolds.
 std::pair<int, int> bodies_of(const btManifoldPoint& point, btPersistentManifold** manifolds, int manifold_count);

@@ -74,8 +74,8 @@ class DynamicStepper {
                              const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
   /// Returns the same fraction of the motions that the solver predicted.
   double predicted_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const;
-  /// Blocks the held bodies for one substep, while the others move on.
-  void block(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome);
+  /// Blocks the held bodies for one substep, while the others move on; shortens it to where these bounce.
+  void block(const std::vector<bodies::SteppedBody*>& held, double& h, Outcome& outcome);
   void take(bodies::SteppedBody& body, const Wrench& contact_W);
   void add_contacts();
   bool has_priority(std::size_t body, std::size_t other) const;

@@ -97,12 +97,12 @@ class RigidWorld {
   /// Fraction (0 … 1) of the last step over which the free bodies have certainly not passed through anything 1 mm
   /// thick.
   virtual double admissible_fraction_of_free() const = 0;
-  /// Time from the start of the last step to the next moment at which two free bodies touch and bounce off each other
-  /// [s], or more; infinite if none approach. If the step was longer, it has to be undone and repeated with that
+  /// Time from the start of the last step to the next moment at which a free body touches something that it bounces off
+  /// [s], or less; infinite if none approaches. If the step was longer, it has to be undone and repeated with that
   /// duration: bodies bounce only at the start of a step.
   virtual double first_bounce() const = 0;
-  /// Estimate of the largest error of a free body's path in the last step [m], of any of its points, as far as it is
-  /// due to the length of the step; for a body that touches nothing it is zero.
+  /// Estimate of the largest error of a free body's path in the last step [m], of any of its points, because its loads
+  /// were not constant or turned; for a body that touches nothing it is zero.
   virtual double path_error() const = 0;
   /// Returns whether the contacts of the last step were solved to 1 µm, none of rigid materials was deeper than 0.1 mm
   /// at its start, and none is known to be missing.
