@@ -83,7 +83,7 @@ constexpr double max_path_error = 2e-6;
 constexpr double rough_substep = 1e-3;
 /// [s]; contact ignores a step that is shorter. Test: none: no value tried makes one fail.
 constexpr double min_step = 1e-9;
-/// [s]; shortest substep; in a step that is shorter than the longest substep, it is shorter in proportion. Smaller:
+/// [s]; shortest substep; in a step that is shorter than `rough_substep`, it is shorter in proportion. Smaller:
 /// more tries before a body is blocked. Test: LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 1e-3.
 constexpr double min_substep = 1e-5;
 /// [s] for which a held body is blocked if no motion is possible. Test: none: with the next ones changed, too, a cell
