@@ -90,7 +90,7 @@ std::vector<RodCase> bodies_and_forks() {
 }
 
 /// The default fork with a light body and with about the heaviest one that it can carry, and stiffer forks. A light
-/// body on a fork a thousand times as stiff deflects by at most 60 nm, the limit of the digits; a tonne has one on
+/// body on a fork a thousand times as stiff deflects by less than 100 nm, the limit of the digits; a tonne has one on
 /// which it moves like 33 g on the default fork, between soft and stiff. The motion depends on stiffness over mass
 /// only.
 std::vector<RodCase> soft_and_stiff() {

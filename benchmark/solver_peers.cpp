@@ -13,7 +13,7 @@ class SolverPeer : public Method {
   std::string name() const override { return name_; }
   Knob knob() const override { return takes_step(name_) ? Knob::step : Knob::tolerance; }
 
-  bool runs_on(const Scenario& scene) const override { return scene.samples != nullptr || !only_restarts(name_); }
+  bool runs_on(const Scenario& scene) const override { return scene.samples != nullptr || !is_for_samples(name_); }
 
   RunResult run(const Scenario& scene, double setting) const override {
     const FunctionHand hand(scene);

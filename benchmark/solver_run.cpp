@@ -16,16 +16,18 @@ namespace {
 
 constexpr double kFarthest = 1000.0;  // m
 
-/// Whether a method on samples runs through them instead of stopping at each: CVODE, unless it is to be restarted.
-bool runs_through(const std::string& solver) { return solver == "solver_cvode_bdf" || solver == "solver_cvode_adams"; }
+bool contains(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
+
+/// Whether a method on samples runs through them instead of stopping at each.
+bool runs_through(const std::string& solver) {
+  return solver == "solver_cvode_bdf" || solver == "solver_cvode_adams" || contains(solver, "_through");
+}
 
 std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, OdeSolver::Rates rates) {
-  if (name == "solver_dop853") return make_dop853(size, std::move(rates));
-  if (name == "solver_radau") return make_radau(size, std::move(rates));
-  if (name == "solver_arkode_erk") return make_arkode(false, size, std::move(rates));
-  if (name == "solver_arkode_dirk") return make_arkode(true, size, std::move(rates));
-  const bool adams = name.find("adams") != std::string::npos;
-  return make_cvode(adams ? CvodeFormula::adams : CvodeFormula::bdf, size, std::move(rates));
+  if (contains(name, "dop853")) return make_dop853(size, std::move(rates));
+  if (contains(name, "radau")) return make_radau(size, std::move(rates));
+  if (contains(name, "arkode")) return make_arkode(contains(name, "dirk"), size, std::move(rates));
+  return make_cvode(contains(name, "adams") ? CvodeFormula::adams : CvodeFormula::bdf, size, std::move(rates));
 }
 
 /// Interface to the library: rates of the strain and its rate, and the pose of the object.
@@ -195,13 +197,18 @@ const std::vector<std::string>& solver_names() {
                                                  "solver_cvode_bdf_restarted",
                                                  "solver_cvode_adams_restarted",
                                                  "solver_arkode_erk",
-                                                 "solver_arkode_dirk"};
+                                                 "solver_arkode_dirk",
+                                                 "solver_dop853_through",
+                                                 "solver_radau_through",
+                                                 "solver_arkode_erk_through"};
   return names;
 }
 
 bool takes_step(const std::string& solver) { return solver == "solver_rk4"; }
 
-bool only_restarts(const std::string& solver) { return solver.find("_restarted") != std::string::npos; }
+bool is_for_samples(const std::string& solver) {
+  return contains(solver, "_restarted") || contains(solver, "_through");
+}
 
 bool gains_from_long_steps(const std::string& solver) {
   return solver == "solver_radau" || solver == "solver_cvode_bdf_restarted";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "benchmark/contact/bodies.h"
@@ -36,7 +37,9 @@ Moved moved(const TrialRun& run, const std::string& except = "") {
   return most;
 }
 
-std::vector<RigidTransform> end_of(const ContactTrial& trial) {
+/// Where the bodies end, however long the run takes.
+std::vector<RigidTransform> end_of(ContactTrial trial) {
+  trial.max_seconds = std::numeric_limits<double>::infinity();
   TrialRun run(trial);
   while (run.advance()) continue;
   return run.poses();

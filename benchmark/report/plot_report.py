@@ -276,6 +276,16 @@ BRIEF = {  # the lines of `brief` that are named: colour, the point that bears t
 }
 
 
+def joined(lines):
+    """The lines by method; those of all forms of CVODE, and of Radau, are one, of the best of their points."""
+    for form in ("solver_cvode_bdf", "solver_radau"):
+        family = [method for method in lines if method.startswith(form.replace("_bdf", ""))]
+        points = best(sorted(point for method in family for point in lines.pop(method)))
+        if points:
+            lines[form] = points
+    return lines
+
+
 def brief_panel(axes, lines, **settings):
     """Lines by method: those of BRIEF in colour, with their names, all others in grey."""
     for method, line in lines.items():
@@ -302,7 +312,7 @@ def brief(table, picture, drags):
     for name, cell in zip(names, (cells[0, 0], cells[0, 1], cells[1, 0], cells[1, 1])):
         axes = figure.add_subplot(cell)
         title, left, lines = rod_lines(rows, name)
-        brief_panel(axes, lines, title=title, xlim=(30, 3e5), ylim=(1e-12, 100.0))
+        brief_panel(axes, joined(lines), title=title, xlim=(30, 3e5), ylim=(1e-12, 100.0))
         axes.axhline(left, color="#5f5f5f", linestyle="--")
         if name.startswith("soft"):
             axes.set_ylabel("largest error / deflection")

@@ -69,7 +69,9 @@ PageSection rods_section(const Measurements& measured, const Tables& tables, con
       "The hand is known by its samples, and the motion through them is the same for all, so that what is left is the "
       "error of integration, against Radau IIA at 1e-12; ours are runs of Simulation, solver_… general methods on "
       "the same equation of motion; \"recorded\" cases: against the trajectories of another "
-      "solver, good to 2e-9 m. Steps end at samples.";
+      "solver, good to 2e-9 m. Steps end at samples, but for those of CVODE unless it is restarted, and of methods "
+      "…_through. No engine was run: theirs have no spring with a rod's law, which a user would have to add as a force "
+      "(the bushing of the scenes they have).";
   section.figures.push_back(
       figure({"rods", tables.rods, "rods.png", {}, "Error against run time on the rods"}, folder));
   for (const std::string& shape : validation::names<rod::ShapeKind>()) {
@@ -130,19 +132,15 @@ PageSection stability_section(const Measurements& measured, const Tables& tables
       "end of the rod's range (`stops`) or were done by the L-stable rule (`steps_fallback`): "
       "cells without any of them hold on their own. Cells without mass or with "
       "every DOF rigid cannot fail and are counted apart. "
-      "The contact panel is a map of its own: boxes "
-      "at the "
-      "extremes of mass, in both contact modes, pressed against others, shifted along them, and left alone. A cell "
-      "holds "
-      "where all objects stay finite and within 0.5 m of where they began, none gets deeper than 0.1 mm into another, "
-      "the "
-      "energy does not grow while the hand rests by more than 3 µm of depth are worth under the hardest load, and no "
-      "step was "
-      "refused or blocked. The map of contact is drawn from stiffness × mass ratio × step × damping × obstacle "
-      "(a wall, a loose box, a loose box in front of a wall, a stack), in contact mode `dynamic`, with every pair of "
-      "values: the hand presses the held box by 20 mm, shifts it sideways, and rests. A cell holds where all objects "
-      "stay finite and within 0.5 m of where they began, none gets deeper than 0.1 mm into another, no step was "
-      "refused, blocked or unsolved, and the processor time is below three times real time.";
+      "The contact panel is a map of its own: boxes at the extremes of mass, in both contact modes, pressed against "
+      "others, shifted along them, and left alone. A cell holds where all objects stay finite and within 0.5 m of "
+      "where they began, none gets deeper than 0.1 mm into another, the energy does not grow while the hand rests by "
+      "more than 3 µm of depth are worth under the hardest load, and no step was refused, blocked or unsolved. The map "
+      "of contact is drawn from contact mode × stiffness × mass ratio × step × damping × friction × shape of the held "
+      "object × obstacle (a wall, a loose box, a loose box in front of a wall, a stack), with every pair of values: "
+      "the hand presses the held object by 20 mm, shifts it sideways, and rests. A cell holds where all objects stay "
+      "finite and within 0.5 m of where they began, none gets deeper than 0.1 mm into another, no step was refused, "
+      "blocked or unsolved, and the processor time is below three times real time.";
   section.figures.push_back(figure({"stability",
                                     tables.map,
                                     "stability_map.png",

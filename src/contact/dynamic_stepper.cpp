@@ -74,6 +74,7 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
       const Result result = step_in_contact(std::move(candidates), substep);
       if (result == Result::too_long) continue;
       if (result == Result::done_unsolved) ++outcome.unsolved;
+      outcome.path_error = std::max(outcome.path_error, world_->path_error());
       if (result == Result::stuck) {
         substep = std::min(blocked_substep, left);
         block(held, substep, outcome);

@@ -27,7 +27,7 @@ class Groups {
 }  // namespace
 
 std::vector<bool> move_with_mean_velocity(const std::vector<BodyVelocities>& bodies,
-                                          const std::vector<BouncingContact*>& contacts, double h) {
+                                          const std::vector<BouncingContact*>& contacts, double h, double resting) {
   Groups groups(bodies.size());
   std::vector<bool> mean(bodies.size(), true);  // by group
   const auto of = [&](std::size_t body) { return groups.of(body); };
@@ -42,10 +42,12 @@ std::vector<bool> move_with_mean_velocity(const std::vector<BodyVelocities>& bod
     }
     return lead;
   };
-  // A load is constant if its contact neither closes, opens nor begins to stick in the step.
+  // A load is constant if its contact neither closes, opens nor begins to stick in the step. Where several stick, they
+  // may press against each other by as much as friction allows.
   const auto is_steady = [&](const BouncingContact& c) {
-    const Vector3d lead = lead_of(c);
-    const bool sticks = c.impulse.tail<2>().norm() < (1.0 - slip_share) * c.friction * c.impulse[0];
+    const Vector3d lead = lead_of(c), end = c.J_a * bodies[c.a].end + c.J_b * bodies[c.b].end;
+    const bool sticks =
+        c.impulse.tail<2>().norm() < (1.0 - slip_share) * c.friction * c.impulse[0] || end.tail<2>().norm() <= resting;
     return std::abs(lead[0]) <= as_deep && (!sticks || lead.tail<2>().norm() <= as_deep);
   };
   for (const BouncingContact* c : contacts) {

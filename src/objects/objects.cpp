@@ -190,6 +190,7 @@ void Objects::step_together(const std::vector<Carried>& held, const std::vector<
   counts.steps += outcome.substeps;
   counts.steps_among_movable += outcome.substeps;
   counts.steps_unsolved += outcome.unsolved;
+  counts.path_error = std::max(counts.path_error, outcome.path_error);
   counts.collision_queries += outcome.substeps;
   counts.note(outcome.time_lost, outcome.refused);
   for (const Carried& c : held) take_state(c.object, c.body->object());

@@ -164,7 +164,7 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(std::vector<Contact>& contac
   if (!approach) return change;
   solve(closed_ones, true, change);
   for (const Contact& c : closed_ones) {
-    const auto axes = (c.J_a.isZero(0.0) ? SolverContact::Jacobian(-c.J_b) : c.J_a).leftCols<3>();
+    const Matrix3d axes = c.J_a.isZero(0.0) ? Matrix3d(-c.J_b.leftCols<3>()) : Matrix3d(c.J_a.leftCols<3>());
     impacts_.emplace_back(c.point, axes.transpose() * c.impulse);
     load_driven(c, c.impulse, &DrivenBody::impact_W);
     if (drives(c) || c.restitution > 0.0) surfaces_.stop(c.surface);
@@ -205,7 +205,7 @@ void DrivenSolver::find_motions(const btContactSolverInfo& info, std::vector<Con
   for (std::size_t i = 0; i < change.size(); ++i)
     velocities[i] = {velocity(i, true) + by_impact[i], velocity(i, false) + change[i], pushes(i)};
   for (Contact& c : contacts) c.by_end_velocity = c.surface >= 0 || drives(c);
-  add_free_motions(info, m_tmpSolverBodyPool, velocities, contacts, h_, motions_);
+  add_free_motions(info, m_tmpSolverBodyPool, velocities, contacts, h_, enough_, motions_);
 }
 
 btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,

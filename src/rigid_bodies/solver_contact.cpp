@@ -61,7 +61,7 @@ void take_changes(const std::vector<Vector6d>& change, btAlignedObjectArray<btSo
 
 void add_free_motions(const btContactSolverInfo& info, const btAlignedObjectArray<btSolverBody>& bodies,
                       const std::vector<friction::BodyVelocities>& velocities, std::vector<SolverContact>& contacts,
-                      double h, std::vector<bodies::FreeMotion>& motions) {
+                      double h, double resting, std::vector<bodies::FreeMotion>& motions) {
   std::vector<bodies::FreeMotion> all(velocities.size());
   for (const SolverContact& c : contacts) {
     if (!(c.impulse[0] > 0.0)) continue;
@@ -70,7 +70,7 @@ void add_free_motions(const btContactSolverInfo& info, const btAlignedObjectArra
       all[body].load_W += to_wrench(J->transpose() * c.impulse / h);
     }
   }
-  const std::vector<bool> mean = friction::move_with_mean_velocity(velocities, bouncing(contacts), h);
+  const std::vector<bool> mean = friction::move_with_mean_velocity(velocities, bouncing(contacts), h, resting);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!velocities[i].free) continue;
     const btSolverBody& body = bodies[static_cast<int>(i)];

@@ -59,10 +59,10 @@ Matrix6d mobility_of(const btSolverBody& body);
 /// Changes the velocities of Bullet's bodies.
 void take_changes(const std::vector<Vector6d>& change, btAlignedObjectArray<btSolverBody>& bodies);
 
-/// Adds how the free ones of Bullet's bodies move over a step of `h` [s].
+/// Adds how the free ones of Bullet's bodies move over a step of `h` [s]. `resting`: slip that counts as none [m/s].
 void add_free_motions(const btContactSolverInfo& info, const btAlignedObjectArray<btSolverBody>& bodies,
                       const std::vector<friction::BodyVelocities>& velocities, std::vector<SolverContact>& contacts,
-                      double h, std::vector<bodies::FreeMotion>& motions);
+                      double h, double resting, std::vector<bodies::FreeMotion>& motions);
 
 /// Contact of the world after a step of `h` [s], of bodies with these user indices, without the impulses at its start.
 WorldContact world_contact(const btManifoldPoint& point, int a, int b, double h);

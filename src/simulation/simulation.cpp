@@ -316,6 +316,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   report.steps_unsolved += counts.steps_unsolved;
   report.steps_rejected += counts.steps_rejected;
   report.time_lost += counts.time_lost;
+  report.position_error = std::max(report.position_error, counts.path_error);
   for (auto& [object, sharing] : shared)
     sharing.end_step({objects.states()[object].X_WO, objects.states()[object].V_WO_W, {}}, now + h);
   for (Hand& hand : hands) hand.end_step(report);

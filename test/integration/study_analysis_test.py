@@ -139,6 +139,14 @@ class Files(unittest.TestCase):
         for k, name in enumerate("abcd"):
             self.assertIn("| %s | %.4g (" % (name, np.median(table[:, k])), times_part)
             self.assertIn("| %s | %.4g (" % (name, np.median(table[:, k]) / 10.0), tlx_part)
+        with open(self.path("out/medians.csv"), encoding="utf-8", newline="") as file:
+            medians = {(row["measure"], row["condition"]): row["median (95 %)"] for row in csv.DictReader(file)}
+        self.assertEqual(sum(measure in ("time_s", "tlx_raw") for measure, _ in medians), 8)
+        for (measure, name), text in medians.items():
+            self.assertIn(f"| {name} | {text} |", tlx_part if measure == "tlx_raw" else times_part)
+        with open(self.path("out/pairs.csv"), encoding="utf-8", newline="") as file:
+            for row in csv.reader(file):
+                self.assertIn(f"| {' | '.join(row[1:])} |", times_part if row[0] != "tlx_raw" else tlx_part)
         self.assertNotIn("weighted", done.stdout)
         self.assertIn("below 0.0029", done.stdout)  # 6 pairs, 2 of 4096 sign changes
 

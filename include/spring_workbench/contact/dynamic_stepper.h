@@ -21,9 +21,9 @@ class DynamicStepper {
   struct Outcome {
     int substeps = 0;
     int unsolved = 0;        ///< substeps taken although a contact violated its law or a free body's path was not clear
-    double time_lost = 0.0;  ///< time [s] during which a held body was blocked, because contact admitted no motion or
-                             ///< because its result was non-finite or out of range
-    bool refused = false;    ///< the result of a substep without contact was non-finite or out of range
+    double time_lost = 0.0;  ///< time for which a held body was blocked: no motion was admissible or finite [s]
+    double path_error = 0.0;  ///< largest estimated error of a free body's path over a substep [m]
+    bool refused = false;     ///< the result of a substep without contact was non-finite or out of range
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);
@@ -66,8 +66,7 @@ class DynamicStepper {
   /// Returns how much of a substep to take, after the world has been advanced over it: until bodies bounce, or as long
   /// as paths are exact enough.
   double admissible_substep(double h);
-  /// Advances the world over a substep, and returns the contact wrenches on the held bodies, which are still at its
-  /// start.
+  /// Advances the world over a substep, and returns the wrenches on the held bodies, which are still at its start.
   std::vector<rigid_bodies::DrivenBody> solve(const std::vector<Candidate>& candidates, double h);
   /// Carries the held bodies over a substep under these loads; returns the admissible fraction of their motions.
   double admissible_fraction(const std::vector<Candidate>& candidates,

@@ -59,8 +59,11 @@ struct AcceptedInput {
 /// Times are those of the hand's clock [s]. A feed has no thread; the same calls give bit-identical results.
 class Feed {
  public:
-  /// Whether the motion of the hands is predicted for predict(). Prediction costs time for every sample.
-  enum class Prediction { off, on };
+  /// Whether the motion of the hands is predicted.
+  enum class Prediction {
+    off,  ///< predict() is not used
+    on,   ///< predict() may be used; costs time for every sample
+  };
   /// Feeds `simulation`, which must outlive the feed.
   Feed(simulation::Simulation& simulation, const InputSettings& settings, Prediction prediction = Prediction::off);
   ~Feed();

@@ -9,8 +9,11 @@ class Node;
 
 namespace spring_workbench::hand_input {
 
-/// Treatment of a held object whose hand is lost: it stays where the hand was last (freeze), or it is released.
-enum class OnLoss { freeze, release };
+/// Treatment of a held object whose hand is lost.
+enum class OnLoss {
+  freeze,   ///< the hand counts as resting where it was last
+  release,  ///< the object is released
+};
 const std::vector<std::string>& names_of(OnLoss);  ///< words for the treatments in settings
 
 /// Settings by which the samples of a tracker are accepted, filtered and followed. Their keys begin with `input.`.

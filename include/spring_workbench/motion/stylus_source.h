@@ -28,8 +28,11 @@ enum class ButtonEdge {
 
 /// Measurement of a machine's force sensor: a wrench on the held object at the tip E.
 struct ExternalWrench {
-  /// Axes of the wrench: fixed in world, or the axes of the tip, which turn with it.
-  enum class Axes { world, tip };
+  /// Axes of the wrench.
+  enum class Axes {
+    world,  ///< those of world
+    tip,    ///< those of the tip, which turn with it
+  };
   double t = 0.0;           ///< time of the measurement [s]
   Wrench wrench;            ///< wrench about the origin of E [N, N·m], each component within ±1e5
   Axes axes = Axes::world;  ///< axes in which `wrench` is given

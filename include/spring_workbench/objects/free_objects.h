@@ -17,10 +17,11 @@ struct StepCounts {
   int steps = 0;
   int steps_among_movable = 0;  ///< steps that involved other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
-  int steps_blocked = 0;   ///< steps in which no admissible motion of a body was found, so it did not move
-  int steps_unsolved = 0;  ///< substeps among movable objects that were accepted although a contact violated its law
-  int steps_rejected = 0;  ///< steps whose result was not finite or not bounded
-  double time_lost = 0.0;  ///< time during which a body did not follow its equation [s]
+  int steps_blocked = 0;    ///< steps in which no admissible motion of a body was found, so it did not move
+  int steps_unsolved = 0;   ///< substeps among movable objects that were accepted although a contact violated its law
+  int steps_rejected = 0;   ///< steps whose result was not finite or not bounded
+  double path_error = 0.0;  ///< largest estimated error of a free object's path over a substep among movable ones [m]
+  double time_lost = 0.0;   ///< time during which a body did not follow its equation [s]
 
   void note(double lost, bool refused) {
     steps_blocked += lost > 0.0 ? 1 : 0;

@@ -56,7 +56,7 @@ SimulationState parse_state(const std::string& text);
 /// shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
 /// rigid for the step or, in contact, the object stays in place (`steps_rejected`; doc/model.md, "Steps that are not
 /// solved"). If these three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are all 0, nothing unusual
-/// happened. In contact, one step may need several integrations of the equation of motion, each over a part of it.
+/// happened. In contact, a step may need several integrations, each over a part of it.
 ///
 /// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
 /// of an error from above, not a rigorous bound (doc/model.md, "Error bound").
@@ -157,8 +157,7 @@ class Simulation {
   /// ignores the sample, if it is not later than the newest one. Throws InputError if the pose is not finite, not rigid
   /// or out of range (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// Adds a button edge at time `t` [s]. It acts at the first step that begins at or after `t`. Throws InputError if
-  /// `t` is not finite.
+  /// Adds a button edge at `t` [s], finite or InputError. It acts at the first step that begins at or after `t`.
   void push_edge(double t, motion::ButtonEdge edge, std::size_t hand = 0);
   /// Presses or releases the grasp button at time `t` [s].
   void push_button(double t, bool pressed, std::size_t hand = 0) {
@@ -193,8 +192,7 @@ class Simulation {
   /// Releases the object of one hand or, with std::nullopt, of every hand. Returns false if nothing was held.
   bool release(std::optional<std::size_t> hand = std::nullopt);
 
-  // Changes while running. Pose and twist of the object do not jump. An impossible change throws InputError and changes
-  // nothing.
+  // Changes while running: pose and twist of the object do not jump. An impossible one throws InputError, no more.
   /// Changes the tool in one hand or, with std::nullopt, in every hand. The hand keeps its object, and the new tool
   /// starts without strain. The probe cannot hold an object, so a change to it releases the object.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = std::nullopt);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace spring_workbench::friction {
 namespace {
 
-constexpr double dt = 0.01, fall_rate = 9.81;  // [s, m/s²]
+constexpr double dt = 0.01, fall_rate = 9.81, resting = 1e-5;  // [s, m/s², m/s]
 
 BodyVelocities from_to(double start, double end) {
   BodyVelocities v;
@@ -34,7 +36,7 @@ BouncingContact on(std::size_t a, std::size_t b, double gap, double impulse) {
 std::vector<bool> mean(const std::vector<BodyVelocities>& bodies, std::vector<BouncingContact> contacts) {
   std::vector<BouncingContact*> all;
   for (BouncingContact& c : contacts) all.push_back(&c);
-  return move_with_mean_velocity(bodies, all, dt);
+  return move_with_mean_velocity(bodies, all, dt, resting);
 }
 
 TEST(MeanVelocity, WhatFallsFreelyOrRestsHasIt) {
@@ -64,6 +66,24 @@ TEST(MeanVelocity, WhatBeginsToStickMovesWithItsEndVelocity) {
   slides.end[0] = 1.0 - c.friction * fall_rate * dt;
   c.impulse[1] = -c.friction * fall_rate * dt;
   EXPECT_EQ(mean({slides, fixed()}, {c})[0], true);
+}
+
+// Of two contacts, each as far as friction allows, aslant: together they stop the slip.
+TEST(MeanVelocity, ContactsThatPressAgainstEachOtherStickToo) {
+  BodyVelocities slides = from_to(0.0, 0.0);
+  slides.start[0] = 0.03;
+  BouncingContact one = on(0, 1, 0.0, 0.5 * fall_rate * dt), other = one;
+  const double most = 0.5 * 0.5 * fall_rate * dt;
+  for (BouncingContact* c : {&one, &other}) {
+    c->friction = 0.5;
+    c->J_a(1, 0) = c->J_a(2, 1) = 1.0;
+    c->impulse[1] = -0.015;
+    c->impulse[2] = (c == &one ? 1.0 : -1.0) * std::sqrt(most * most - 0.015 * 0.015);
+  }
+  for (const double left : {0.0, 0.1 * resting}) {
+    slides.end[0] = left;
+    EXPECT_EQ(mean({slides, fixed()}, {one, other})[0], false) << left;
+  }
 }
 
 TEST(MeanVelocity, WhatHopsOrLandsMovesWithItsEndVelocity) {
