@@ -8,7 +8,7 @@ node publish already. Several sessions run at the same time, each with a master 
 process for each processor.
 
 LIVE_SEEDS: how many sessions; LIVE_FIRST: the first seed; LIVE_LENGTH: of each [s]; LIVE_AT_ONCE: how many at the same
-time."""
+time; LIVE_TABLE: path of a table of the results, if none failed."""
 import contextlib
 import csv
 import json
@@ -57,6 +57,7 @@ SEEDS = int(os.environ.get("LIVE_SEEDS", "3"))
 FIRST = int(os.environ.get("LIVE_FIRST", "0"))
 LENGTH = float(os.environ.get("LIVE_LENGTH", "60"))  # [s]
 AT_ONCE = int(os.environ.get("LIVE_AT_ONCE", "3"))
+TABLE = os.environ.get("LIVE_TABLE")
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 BRICK = "package://spring_workbench/test/integration/data/brick.urdf"
 SCENE = os.path.join(PACKAGE, "scenes", "single_box.urdf")
@@ -459,6 +460,14 @@ class Session:
         return result
 
 
+def write_table(results):
+    with open(TABLE, "w") as file:
+        table = csv.DictWriter(file, ["seed", "options", *next(iter(results.values()))], lineterminator="\n")
+        table.writeheader()
+        for seed, result in sorted(results.items()):
+            table.writerow({"seed": seed, "options": " ".join(options_of(seed)[0]), **result})
+
+
 class LiveReplay(unittest.TestCase):
     def run_all(self):
         waiting, running, results = list(range(FIRST, FIRST + SEEDS)), [], {}
@@ -490,6 +499,8 @@ class LiveReplay(unittest.TestCase):
                 self.assertGreater(result["hashes"], 3)
                 self.assertGreater(result["wrenches"], 100)
         self.assertGreater(sum(result["held in"] for result in results.values()), 20)
+        if TABLE:
+            write_table(results)
 
 
 if __name__ == "__main__":
