@@ -3,8 +3,8 @@
 find_package(rostest REQUIRED)
 set(nodes bad_start left_out tracker_driver)
 if(SPRING_WORKBENCH_FCL_FOUND)
-  list(APPEND nodes beside_work checkpoint contact_sound ended_nodes fastrak faults killed_nodes launch_files limits
-    live_replay machine_link manipulation many_objects master moved_by_messages
+  list(APPEND nodes beside_work checkpoint contact_sound displayed ended_nodes fastrak faults killed_nodes launch_files
+    limits live_replay machine_link manipulation many_objects master moved_by_messages
     played_recordings
     register_tracker rviz study tools)
 endif()

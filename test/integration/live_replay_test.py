@@ -8,7 +8,7 @@ node publish already. Several sessions run at the same time, each with a master 
 process for each processor.
 
 LIVE_SEEDS: how many sessions; LIVE_FIRST: the first seed; LIVE_LENGTH: of each [s]; LIVE_AT_ONCE: how many at the same
-time."""
+time; LIVE_TABLE: path of a table of the results, if none failed."""
 import contextlib
 import csv
 import json
@@ -57,6 +57,7 @@ SEEDS = int(os.environ.get("LIVE_SEEDS", "3"))
 FIRST = int(os.environ.get("LIVE_FIRST", "0"))
 LENGTH = float(os.environ.get("LIVE_LENGTH", "60"))  # [s]
 AT_ONCE = int(os.environ.get("LIVE_AT_ONCE", "3"))
+TABLE = os.environ.get("LIVE_TABLE")
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 BRICK = "package://spring_workbench/test/integration/data/brick.urdf"
 SCENE = os.path.join(PACKAGE, "scenes", "single_box.urdf")
@@ -64,6 +65,7 @@ MANIPULATION = roslib.packages.find_node("spring_workbench", "manipulation")
 REPLAY = roslib.packages.find_node("spring_workbench", "replay")
 TOPICS = ["/manipulation/" + name for name in ("accepted", "changes", "objects")]
 JOURNAL = TOPICS[:2]
+RESTARTS = ("the hand's time begins", "load_scene", "reset")  # changes with which time begins anew, at the next sample
 VIEWED = ["/tf", *("/manipulation/" + name for name in ("markers", "display/objects", "display/fork"))]
 
 
@@ -357,9 +359,25 @@ def numbers_of(state):
     return (p.x, p.y, p.z, sign * q.x, sign * q.y, sign * q.z, sign * q.w, v.x, v.y, v.z, w.x, w.y, w.z)
 
 
-def compare(messages, rows, began):
+def times_without_a_hand(journal):
+    """Intervals of the wall clock [ns] in which no sample had come since time restarted: each from the stamp of the
+    newest input before the restart to the arrival of the next pose."""
+    intervals, newest, begin = [], 0, None
+    for topic, message, arrival in sorted(journal, key=lambda m: m.message.index):
+        if topic == JOURNAL[1]:
+            if message.what in RESTARTS and begin is None:
+                begin = newest
+            continue
+        newest = max(newest, message.header.stamp.to_nsec())
+        if message.kind == Accepted.POSE and begin is not None:
+            intervals.append((begin, arrival.to_nsec()))
+            begin = None
+    return intervals + ([] if begin is None else [(begin, math.inf)])
+
+
+def compare(messages, rows, without_hand, began):
     """Numbers of states: equal, before the journal was complete, and without a hand. Raises AssertionError if one
-    differs. `began`: time from which on each has to be compared [ns]."""
+    differs. `without_hand`: intervals of the clock [ns]; `began`: time from which on each has to be compared [ns]."""
     # Several where time was left out, and by rounding of one nanosecond.
     zeros = {m.header.stamp.to_nsec() - round(m.time * 1e9) for m in messages[TOPICS[0]]}
     for change in messages[TOPICS[1]]:
@@ -386,6 +404,7 @@ def compare(messages, rows, began):
                 assert numbers in found, "%s differs at %d" % (state.name, stamp)
                 same += 1
                 continue
+            assert any(a < stamp < b for a, b in without_hand), "%s at %d is not replayed" % (state.name, stamp)
             assert numbers in replayed[state.name], "%s differs at %d" % (state.name, stamp)
             assert not any(numbers[7:]), "%s moves at %d with no hand" % (state.name, stamp)
             waiting += 1
@@ -409,7 +428,8 @@ def session():
     rows, summary = replay(bag, os.path.join(folder, "run.csv"))
     with rosbag.Bag(bag) as recorded:
         messages = {topic: [m.message for m in recorded.read_messages(topic)] for topic in TOPICS}
-    same, before, waiting = compare(messages, rows, began)
+        without_hand = times_without_a_hand(recorded.read_messages(JOURNAL))
+    same, before, waiting = compare(messages, rows, without_hand, began)
     shutil.rmtree(folder)
     accepted, changes, objects = (messages[topic] for topic in TOPICS)
     result = {
@@ -459,6 +479,14 @@ class Session:
         return result
 
 
+def write_table(results):
+    with open(TABLE, "w") as file:
+        table = csv.DictWriter(file, ["seed", "options", *next(iter(results.values()))], lineterminator="\n")
+        table.writeheader()
+        for seed, result in sorted(results.items()):
+            table.writerow({"seed": seed, "options": " ".join(options_of(seed)[0]), **result})
+
+
 class LiveReplay(unittest.TestCase):
     def run_all(self):
         waiting, running, results = list(range(FIRST, FIRST + SEEDS)), [], {}
@@ -490,6 +518,8 @@ class LiveReplay(unittest.TestCase):
                 self.assertGreater(result["hashes"], 3)
                 self.assertGreater(result["wrenches"], 100)
         self.assertGreater(sum(result["held in"] for result in results.values()), 20)
+        if TABLE:
+            write_table(results)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ FEW, MANY = 25, 1024  # objects
 PARTS, LENGTH, PERIOD = 4, 150, 0.005  # parts of a run, samples in each, [s]
 SAMPLES = PARTS * LENGTH
 TOPICS = ["objects", "display/objects", "display/markers", "steps"]
+JOURNAL = ["accepted", "changes"]
 BOX = """<link name="box%d"><inertial><mass value="0.1"/><inertia ixx="3e-5" iyy="3e-5" izz="3e-5" ixy="0" ixz="0"
 iyz="0"/></inertial><visual><geometry><box size="0.04 0.04 0.04"/></geometry></visual><collision><geometry>
 <box size="0.04 0.04 0.04"/></geometry></collision></link>
@@ -79,10 +80,19 @@ class ManyObjects(unittest.TestCase):
             seconds, nanoseconds = struct.unpack_from("<II", message._buff, 4)
             stamps[topic].add(seconds * 10**9 + nanoseconds)
 
+        came = {topic: 0 for topic in (*JOURNAL, "/tf")}
+
+        def count_message(message, topic):
+            came[topic] += message._connection_header["callerid"] == "/manipulation"
+
         subscribers = [rospy.Subscriber("manipulation/" + t, rospy.AnyMsg, note, t) for t in TOPICS]
+        subscribers += [rospy.Subscriber("manipulation/" + t, rospy.AnyMsg, count_message, t) for t in JOURNAL]
+        subscribers.append(rospy.Subscriber("/tf", rospy.AnyMsg, count_message, "/tf"))
         fork, diagnostics = Listener("manipulation/fork", ForkState), diagnostics_listener()
-        everything = [*subscribers, fork.subscriber, diagnostics.subscriber, self.tf, self.joy]
+        everything = [*subscribers, fork.subscriber, diagnostics.subscriber, self.joy]
         wait_for(lambda: all(one.get_num_connections() > 0 for one in everything), "the node")
+        wait_for(lambda: self.tf.get_num_connections() > 1, "the node to listen, as this test does")
+        wait_for(lambda: came["/tf"] and came["changes"], "frames and the journal")
         begin = time.time()
         sent = [self.send(k, begin, k > 20) for k in range(100)]
         wait_for(lambda: fork.last and fork.last.held_object, "a held box")
@@ -97,6 +107,9 @@ class ManyObjects(unittest.TestCase):
         lost = diagnostic_values(diagnostics.messages, "messages lost")
         text = "%d objects: %.0f us of processor time per sample; %s of %s cycles late"
         print(text % (count, 1e6 * spent, loop["deadlines missed"], loop["cycles"]))
+        print("messages: %s" % came)
+        self.assertGreater(came["accepted"], 0.9 * len(sent))
+        self.assertGreater(came["/tf"], 0.5 * len(sent))
         self.assertEqual(fork.last.held_object, "box0")
         self.assertEqual(set(lost.values()), {"0"})
         for faults in (of_input["dropouts"], loop["cycles behind the hands"], loop["skipped without input [s]"]):

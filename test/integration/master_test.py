@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""A ROS master that hangs or dies under the nodes: the committed states and the displayed ones follow the hand as
-before, connected clients are not affected, /diagnostics reports it, and the nodes can be stopped. After such a time a
-new master lists all of them again, and a held object stays held. The test has its own master. MASTER_OUTAGE: duration
-[s]."""
+"""A ROS master that hangs or dies under the nodes: the committed states and the displayed ones follow the hand within
+the same time in 99 % as before, connected clients are not affected, /diagnostics reports it, and the nodes can be
+stopped. After such a time a new master lists all of them again, and a held object stays held. The test has its own
+master. MASTER_OUTAGE: duration [s]."""
 import contextlib
 import json
 import math
@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 import unittest
+from typing import NamedTuple
 from xmlrpc.client import ServerProxy
 
 import roslib.packages
@@ -32,12 +33,32 @@ NODES = ["/contact_sound", "/manipulation", "/register_tracker", "/tracker_drive
 PERIOD = 0.01  # [s] of the samples
 OUTAGE = float(os.environ.get("MASTER_OUTAGE", "8"))  # [s]; scripts/nightly: a minute
 TOPICS = ["objects", "display/objects"]  # committed and displayed states
+LONGER = 1.0  # [ms] by which 99 % may take longer without a master
+BUSY = 3.0  # [ms] beyond which 99 % with a master say that the machine is too busy to compare
+IDLE = 0.2  # share of the processors' time; with less, other work may be what delays
 
 
 def free_port():
     with socket.socket() as s:
         s.bind(("", 0))
         return s.getsockname()[1]
+
+
+def processor_times():
+    """Idle and total time of all processors, in the same unit."""
+    with open("/proc/stat") as file:
+        times = [int(number) for number in file.readline().split()[1:9]]
+    return times[3], sum(times)
+
+
+class Lags(NamedTuple):
+    """Of a topic's states: how many have the stamp of a sample, the lag that 99 % do not exceed in cycles and in ms,
+    and whether that is too long, apart from whole cycles, for a machine with nothing else to do."""
+
+    own: int
+    cycles: int
+    ms: float
+    busy: bool
 
 
 class Feeder:
@@ -152,23 +173,36 @@ class Master(unittest.TestCase):
         self.master.wait()
 
     def run_hand(self, how):
-        """The number of samples, and by topic how many of them have a state and the lag that 99 % do not exceed."""
+        """The number of samples, the idle share of the processors, and the lags by topic."""
+        idle, total = processor_times()
         result = json.loads(" ".join(self.ask("run")))
+        idle, total = (now - before for now, before in zip(processor_times(), (idle, total)))
+        print("%s a master: the processors are idle for %.0f %%" % (how, 100.0 * idle / total))
         for topic, of in result["topics"].items():
             lags = "cycles: 50 %%: %d, 99 %%: %d, most: %d; ms: %.2f, %.2f, %.2f" % (*of["cycles"], *of["ms"])
             print("%s a master, %s: %d samples, %d states; %s" % (how, topic, result["samples"], of["own"], lags))
-        return result["samples"], {topic: (of["own"], of["cycles"][1]) for topic, of in result["topics"].items()}
+        return result["samples"], idle / total, {
+            topic: Lags(of["own"], of["cycles"][1], of["ms"][1], of["ms"][1] - 1e3 * PERIOD * of["cycles"][0] > BUSY)
+            for topic, of in result["topics"].items()
+        }
 
     def check(self, outage):
         self.start_driver("_stylus_frame:=other", "stylus/joy:=other/joy")  # the stylus is the client's
         self.start_client("hand")
-        _, with_master = self.run_hand("with")
+        _, _, with_master = self.run_hand("with")
+        if any(lags.busy for lags in with_master.values()):
+            _, _, with_master = self.run_hand("once more with")
         outage()
-        samples, without = self.run_hand("without")
-        self.assertEqual(without["objects"][0], samples)  # each is committed
+        samples, idle, without = self.run_hand("without")
+        self.assertEqual(without["objects"].own, samples)  # each is committed
         for topic in TOPICS:
-            self.assertLessEqual(without[topic][1], with_master[topic][1], topic)  # in 99 %
-            self.assertGreaterEqual(without[topic][0], 0.99 * samples, topic)
+            before, now = with_master[topic], without[topic]
+            self.assertGreaterEqual(now.own, 0.99 * samples, topic)
+            self.assertLessEqual(now.cycles, before.cycles, topic)  # in 99 %
+            if before.busy or idle < IDLE:
+                print("%s: not compared in ms, since the machine is too busy" % topic)
+            else:
+                self.assertLessEqual(now.ms, before.ms + LONGER, topic)
         for stretch in (600.0, 610.0, 620.0):  # live tuning tells the master of each, on its own
             self.assertEqual(self.ask("service %s" % stretch), ["True"])
             self.assertEqual(self.ask("diagnostics"), ["True"])  # new ones
