@@ -11,7 +11,8 @@ namespace spring_workbench::scene {
 constexpr std::uintmax_t max_bytes = 256u << 20;
 /// Maximum number of triangles of a mesh. Test: LoadScene.MoreThanAMillionTrianglesAreRefused.
 constexpr std::size_t max_triangles = 1000000;
-/// Maximum number of triangles of all meshes of a scene. Test: LoadScene.AScenesMeshesHaveABudget.
+/// Maximum number of triangles of all meshes of a scene, including those of added objects. Test:
+/// LoadScene.AScenesMeshesHaveABudget.
 constexpr std::size_t max_scene_triangles = 2000000;
 /// Maximum processor time for reading all meshes of a scene [s]. Test: LoadScene.AScenesMeshesHaveABudget at 0.001.
 constexpr double max_scene_time = 60.0;

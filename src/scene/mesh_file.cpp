@@ -170,7 +170,18 @@ bool is_closed(const geometry::TriangleMesh& mesh) {
   return open.empty();
 }
 
-MeshCache::MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)), time_left_(max_scene_time) {}
+MeshCache::MeshCache(std::vector<std::string> roots, const std::vector<Body>& present)
+    : roots_(std::move(roots)), time_left_(max_scene_time) {
+  std::set<geometry::MeshPtr> counted;
+  for (const Body& body : present) {
+    for (const auto* shapes : {&body.collision, &body.visual}) {
+      for (const geometry::Shape& shape : *shapes) {
+        const auto* const mesh = std::get_if<geometry::MeshPtr>(&shape.geometry);
+        if (mesh != nullptr && counted.insert(*mesh).second) triangles_ += (*mesh)->triangles.size();
+      }
+    }
+  }
+}
 
 geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
                                   const std::string& where) {
