@@ -32,8 +32,6 @@ constexpr int elements_parsed_in_child = 500;
 /// Depth to which packages are searched below an entry of ROS_PACKAGE_PATH. Test:
 /// LoadScene.PackagesAreFoundByTheFinderAndInRosPackagePath.
 constexpr int package_depth = 3;
-/// Maximum mass of a body [kg]. Test: LoadScene.MassThatIsNotPositiveComesFromTheShapeOrIsRefused at 0.
-constexpr double max_mass = 1e12;
 /// Relative rounding error of an inertia written by hand; an inertia that is inconsistent by more is repaired. Test:
 /// LoadScene.TheRadiusOfGyrationMayReachTheShapesEndAndNoFurther at 0.1.
 constexpr double inertia_rounding = 1e-6;

@@ -613,10 +613,12 @@ TEST_F(LoadScene, BadYamlIsRefusedWithLineAndKey) {
   for (const auto& [yaml, place, key] : std::vector<std::tuple<std::string, std::string, std::string>>{
            {"gravity: -1", ":1:", "gravity"},
            {"gravity: .nan", ":1:", "gravity"},
+           {"gravity: 1e300", ":1:", "gravity"},
            {"\n\nspeed: 1", ":3:", "speed"},
            {"contact: yes", ":1:", "contact"},
            {"tool: fork", ":1:", "tool"},
            {"force_scale: 0", ":1:", "force_scale"},
+           {"force_scale: 1e300", ":1:", "force_scale"},
            {"defaults: {density: 0}", ":1:", "defaults.density"},
            {"defaults: {restitution: 1.5}", ":1:", "defaults.restitution"},
            {"defaults: {colour: red}", ":1:", "defaults.colour"},
