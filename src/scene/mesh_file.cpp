@@ -126,8 +126,9 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
     refuse_missing(where, key, name, "a readable file (" + (absolute == name ? "" : absolute + ": ") + reason + ")");
   }
   const std::uintmax_t bytes = fs::file_size(path, error);
+  const auto mebibytes = [](std::uintmax_t size) { return std::to_string((size + 0xfffff) >> 20) + " MiB"; };
   if (error || bytes > max_bytes) {
-    validation::refuse(where, key, name, "a file of at most " + std::to_string(max_bytes >> 20) + " MiB");
+    validation::refuse(where, key, name, "a file of at most " + mebibytes(max_bytes) + ", got " + mebibytes(bytes));
   }
   return absolute;
 }

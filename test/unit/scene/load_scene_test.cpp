@@ -734,20 +734,27 @@ std::string refusal_from(const std::string& path, const std::vector<std::string>
   return "(loaded)";
 }
 
-/// A FIFO does not block, a device is not read, and no link leads out of the allowed folders.
+/// A FIFO does not block, neither a device nor a huge file is read, and no link leads out of the allowed folders.
 TEST_F(LoadScene, TheYamlNextToItIsRestrictedToTheSameFolders) {
   folder_.write("allowed/scene.urdf", "<robot name='test'><link name='world'/></robot>");
   folder_.write("secret.yaml", "password: 1");
   const std::vector<std::string> roots = {folder_.path("allowed")};
   const std::string yaml = folder_.path("allowed/scene.yaml");
-  const auto refusal = [&] {
-    const std::string text = refusal_from(folder_.path("allowed/scene.urdf"), roots);
+  const auto refusal_within = [&](const std::vector<std::string>& folders) {
+    const std::string text = refusal_from(folder_.path("allowed/scene.urdf"), folders);
     std::filesystem::remove(yaml);
     return text;
   };
+  const auto refusal = [&] { return refusal_within(roots); };
   EXPECT_EQ(refusal(), "(loaded)");
   ASSERT_EQ(mkfifo(yaml.c_str(), 0600), 0);
   EXPECT_TRUE(has(refusal(), "a readable file ("));
+  folder_.write("allowed/scene.yaml", "");
+  std::filesystem::resize_file(yaml, std::uintmax_t{2} << 30);
+  EXPECT_TRUE(has(refusal(), "the YAML file next to it: invalid value '" + yaml +
+                                 "': expected a file of at most 256 MiB, got 2048 MiB"));
+  std::filesystem::create_symlink("/dev/zero", yaml);
+  EXPECT_TRUE(has(refusal_within({}), "not a regular file"));
   for (const auto& [target, rule] :
        {std::pair("/dev/zero", "one of the folders"), {"/nowhere", "No such file or directory"}}) {
     std::filesystem::create_symlink(target, yaml);
