@@ -12,7 +12,7 @@ constexpr double longest_silence = 2.0;
 /// Time until a change by the user shows in the received state [s]. If shorter, the control jumps back for a moment.
 /// Test: none: appearance.
 constexpr double settling = 0.7;
-/// Time in which a cycle in the plot fades to the colour of the older ones [s]. Test: none: appearance.
+/// Time in which a cycle in the plot fades to the colour of the older ones [s]. Test: ErrorPlotTest.ADotFades.
 constexpr double plot_fading = 10.0;
 /// Number of positions of a logarithmic slider. If fewer, values are coarser. Test: none: appearance.
 constexpr int slider_positions = 1000;

@@ -3,6 +3,8 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "constants.h"
 
@@ -17,11 +19,14 @@ struct Decades {
 constexpr Decades times{-5.0, -1.0};    // [s]
 constexpr Decades errors{-13.0, -3.0};  // [m]
 
-/// As many cells along each axis as the plot has pixels at its usual size.
-const QSize cells(220, 120);
+/// About as many cells along each axis as the plot has pixels at its usual size.
+const QSize cells(221, 121);
 
-std::pair<int, int> cell_of(double wall_time, double error) {
-  return {std::lround(cells.width() * times.place(wall_time)), std::lround(cells.height() * errors.place(error))};
+constexpr double never = -std::numeric_limits<double>::infinity();
+
+std::size_t cell_of(double wall_time, double error) {
+  const long column = std::lround((cells.width() - 1) * times.place(wall_time));
+  return static_cast<std::size_t>(std::lround((cells.height() - 1) * errors.place(error)) * cells.width() + column);
 }
 
 }  // namespace
@@ -30,6 +35,7 @@ ErrorPlot::ErrorPlot(QWidget* parent) : QWidget(parent) {
   setMinimumHeight(90);
   setToolTip(
       "all cycles so far, over their run time: error estimate (blue), bound on the error since the grasp (amber)");
+  clear();
 }
 
 void ErrorPlot::add(double now, double wall_time, double error, double bound) {
@@ -40,8 +46,8 @@ void ErrorPlot::add(double now, double wall_time, double error, double bound) {
 }
 
 void ErrorPlot::clear() {
-  estimates_.clear();
-  bounds_.clear();
+  estimates_.assign(static_cast<std::size_t>(cells.width() * cells.height()), never);
+  bounds_ = estimates_;
 }
 
 void ErrorPlot::refresh(double now) {
@@ -49,7 +55,7 @@ void ErrorPlot::refresh(double now) {
   update();
 }
 
-QSize ErrorPlot::sizeHint() const { return cells; }
+QSize ErrorPlot::sizeHint() const { return {220, 120}; }
 
 void ErrorPlot::paintEvent(QPaintEvent*) {
   QPainter painter(this);
@@ -78,13 +84,18 @@ void ErrorPlot::paintEvent(QPaintEvent*) {
   painter.drawText(at(0.0, 0.0) + QPointF(-12.0, 13.0), "10 us");
   painter.drawText(at(0.5, 0.0) + QPointF(-10.0, 13.0), "1 ms");
   painter.drawText(at(1.0, 0.0) + QPointF(-30.0, 13.0), "100 ms");
-  painter.setPen(Qt::NoPen);
-  const auto paint = [&](const Cells& points, QColor color) {
-    for (const auto& [cell, last] : points) {
-      color.setAlphaF(std::clamp(1.0 - (now_ - last) / plot_fading, 0.35, 1.0));
-      painter.setBrush(color);
-      painter.drawEllipse(at(cell.first / double(cells.width()), cell.second / double(cells.height())), 1.5, 1.5);
+  const auto paint = [&](const Cells& last, QColor color) {
+    QImage dots(size(), QImage::Format_ARGB32_Premultiplied);  // a pixel each, which is drawn as two by three
+    dots.fill(Qt::transparent);
+    for (std::size_t i = 0; i < last.size(); ++i) {
+      if (last[i] == never) continue;
+      const std::div_t cell = std::div(static_cast<int>(i), cells.width());
+      const QPoint dot = at(cell.rem / (cells.width() - 1.0), cell.quot / (cells.height() - 1.0)).toPoint();
+      const double opacity = std::clamp(1.0 - (now_ - last[i]) / plot_fading, 0.35, 1.0);
+      color.setAlphaF(1.0 - (1.0 - opacity) * (1.0 - dots.pixelColor(dot).alphaF()));  // above those there
+      dots.setPixelColor(dot, color);
     }
+    for (int i = 0; i < 6; ++i) painter.drawImage(i % 2 - 1, i / 2 - 2, dots);
   };
   paint(estimates_, QColor(90, 190, 250));
   paint(bounds_, QColor(250, 180, 70));

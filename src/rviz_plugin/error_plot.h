@@ -1,8 +1,7 @@
 #pragma once
 
 #include <QWidget>
-#include <map>
-#include <utility>
+#include <vector>
 
 namespace spring_workbench::rviz_plugin {
 
@@ -26,9 +25,9 @@ class ErrorPlot : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  /// When a cycle fell last into each cell of the plot that one has fallen into [s]; key: column and row, from the
-  /// lower left. However long the session is, there are no more than the plot has cells.
-  using Cells = std::map<std::pair<int, int>, double>;
+  /// When a cycle fell last into each cell of the plot [s], by rows from the lower left; −∞: never. However long the
+  /// session is, drawing takes the same time.
+  using Cells = std::vector<double>;
   Cells estimates_, bounds_;
   double now_ = 0.0;
 };

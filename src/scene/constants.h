@@ -11,7 +11,8 @@ namespace spring_workbench::scene {
 constexpr std::uintmax_t max_bytes = 256u << 20;
 /// Maximum number of triangles of a mesh. Test: LoadScene.MoreThanAMillionTrianglesAreRefused.
 constexpr std::size_t max_triangles = 1000000;
-/// Maximum number of triangles of all meshes of a scene. Test: LoadScene.AScenesMeshesHaveABudget.
+/// Maximum number of triangles of all meshes of a scene, including those of added objects. Test:
+/// LoadScene.AScenesMeshesHaveABudget.
 constexpr std::size_t max_scene_triangles = 2000000;
 /// Maximum processor time for reading all meshes of a scene [s]. Test: LoadScene.AScenesMeshesHaveABudget at 0.001.
 constexpr double max_scene_time = 60.0;
@@ -31,8 +32,6 @@ constexpr int elements_parsed_in_child = 500;
 /// Depth to which packages are searched below an entry of ROS_PACKAGE_PATH. Test:
 /// LoadScene.PackagesAreFoundByTheFinderAndInRosPackagePath.
 constexpr int package_depth = 3;
-/// Maximum mass of a body [kg]. Test: LoadScene.MassThatIsNotPositiveComesFromTheShapeOrIsRefused at 0.
-constexpr double max_mass = 1e12;
 /// Relative rounding error of an inertia written by hand; an inertia that is inconsistent by more is repaired. Test:
 /// LoadScene.TheRadiusOfGyrationMayReachTheShapesEndAndNoFurther at 0.1.
 constexpr double inertia_rounding = 1e-6;

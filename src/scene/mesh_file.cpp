@@ -126,8 +126,9 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
     refuse_missing(where, key, name, "a readable file (" + (absolute == name ? "" : absolute + ": ") + reason + ")");
   }
   const std::uintmax_t bytes = fs::file_size(path, error);
+  const auto mebibytes = [](std::uintmax_t size) { return std::to_string((size + 0xfffff) >> 20) + " MiB"; };
   if (error || bytes > max_bytes) {
-    validation::refuse(where, key, name, "a file of at most " + std::to_string(max_bytes >> 20) + " MiB");
+    validation::refuse(where, key, name, "a file of at most " + mebibytes(max_bytes) + ", got " + mebibytes(bytes));
   }
   return absolute;
 }
@@ -170,7 +171,18 @@ bool is_closed(const geometry::TriangleMesh& mesh) {
   return open.empty();
 }
 
-MeshCache::MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)), time_left_(max_scene_time) {}
+MeshCache::MeshCache(std::vector<std::string> roots, const std::vector<Body>& present)
+    : roots_(std::move(roots)), time_left_(max_scene_time) {
+  std::set<geometry::MeshPtr> counted;
+  for (const Body& body : present) {
+    for (const auto* shapes : {&body.collision, &body.visual}) {
+      for (const geometry::Shape& shape : *shapes) {
+        const auto* const mesh = std::get_if<geometry::MeshPtr>(&shape.geometry);
+        if (mesh != nullptr && counted.insert(*mesh).second) triangles_ += (*mesh)->triangles.size();
+      }
+    }
+  }
+}
 
 geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
                                   const std::string& where) {

@@ -38,8 +38,8 @@ bool is_closed(const geometry::TriangleMesh& mesh);
 /// Loads the STL, OBJ and DAE files of a scene, each once, within the scene's budget of triangles and time.
 class MeshCache {
  public:
-  /// `roots`: as in load_scene().
-  explicit MeshCache(std::vector<std::string> roots);
+  /// `roots`: as in load_scene(). `present`: bodies that the scene has already. Their meshes count, each once.
+  explicit MeshCache(std::vector<std::string> roots, const std::vector<Body>& present = {});
 
   /// The mesh that a URDF in `folder` refers to as `name`, multiplied by `scale`. Throws InputError naming `where`.
   geometry::MeshPtr load(const std::string& name, const Vector3d& scale, const std::string& folder,
@@ -47,7 +47,7 @@ class MeshCache {
 
  private:
   std::vector<std::string> roots_;
-  std::size_t triangles_ = 0;  ///< total number so far
+  std::size_t triangles_ = 0;  ///< total number in the scene so far
   double time_left_;           ///< processor time left for reading [s]
   std::map<std::tuple<std::string, double, double, double>, geometry::MeshPtr> meshes_;
 };

@@ -102,8 +102,11 @@ std::string read_in_child(const std::string& path, const std::string& where) {
 
 geometry::TriangleMesh read_triangles(const std::string& path, const std::string& where, double& time_left) {
   double used = 0.0;
-  const std::optional<std::string> data = validation::run_in_child(
-      [&] { return read_in_child(path, where); }, {std::min(max_mesh_time, time_left), max_mesh_memory}, &used);
+  std::optional<std::string> data;
+  if (time_left > 0.0) {
+    data = validation::run_in_child([&] { return read_in_child(path, where); },
+                                    {std::min(max_mesh_time, time_left), max_mesh_memory}, &used);
+  }
   time_left -= used;
   if (!data || time_left <= 0.0)
     validation::refuse(where, "mesh", path,

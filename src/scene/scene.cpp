@@ -155,7 +155,7 @@ Body read_object(const std::string& name, const std::string& urdf, const std::op
   const std::string folder = fs::path(scene.path).parent_path().string();
   const UrdfFile file = read_urdf_file(resolve_file(urdf, folder, roots, where, "urdf"));
   std::vector<std::string> warnings;
-  MeshCache meshes(roots);
+  MeshCache meshes(roots, scene.bodies);
   Body body = build_object(file, X_WL, scene.bench_material, scene.bench_height, meshes, warnings, where, "urdf", urdf);
   body.name = name;
   return body;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/scene/number_rules.h"
 
 namespace spring_workbench::scene {
 namespace {
@@ -23,7 +24,7 @@ struct Fields {
 };
 
 void read_material(const Fields& field, Material& material) {
-  field("friction", material.friction, config::read_number, validation::not_negative());
+  field("friction", material.friction, config::read_number, friction_rule());
   field("restitution", material.restitution, config::read_number, validation::between(0.0, 1.0));
   field("density", material.density, config::read_number, validation::positive().in("kg/m³"));
   field("material_stiffness", material.stiffness, config::read_number, validation::positive_or_infinite().in("N/m"));
@@ -88,9 +89,9 @@ std::vector<RigidTransform> read_handles(const YAML::Node& start, const std::str
 void read_settings(const YAML::Node& map, const std::string& path, SceneFile& file) {
   Scene& scene = file.settings;
   const Fields field{map, path, ""};
-  field("gravity", scene.gravity, config::read_number, validation::not_negative().in("m/s²"));
+  field("gravity", scene.gravity, config::read_number, gravity_rule());
   field("bench_height", scene.bench_height, config::read_number, validation::any_number().in("m"));
-  field("force_scale", scene.force_scale, config::read_number, validation::positive());
+  field("force_scale", scene.force_scale, config::read_number, force_scale_rule());
   field("contact", scene.contact, config::read_named<ContactMode>);
   const std::vector<std::string> tools = {"spring", "spring_fork", "spring_probe", "direct", "ray"};
   field("tool", scene.tool, config::read_choice, tools);

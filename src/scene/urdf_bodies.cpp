@@ -2,9 +2,8 @@
 
 #include <filesystem>
 
-#include "constants.h"
 #include "mass.h"
-#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/scene/number_rules.h"
 
 namespace spring_workbench::scene {
 namespace {
@@ -114,7 +113,7 @@ class BodyBuilder {
     const std::vector<geometry::Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
     const RigidMass mass = repaired_mass(given_L, shapes, body.material.density, where, warnings_);
     if (body.collision.empty()) warnings_.push_back(where + ": no collision shape: the body touches nothing");
-    validation::check_number(where, "mass", mass.mass, validation::between(0.0, max_mass).in("kg"));
+    validation::check_number(where, "mass", mass.mass, mass_rule());
     body.mass_properties = {mass.mass, mass.inertia};
     body.X_OL.translation() = -mass.centre;
     body.X_WO = body.X_WO * body.X_OL.inverse();

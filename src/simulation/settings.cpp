@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/scene/number_rules.h"
 #include "spring_workbench/stepping/step_control.h"
 #include "spring_workbench/validation/renamed.h"
 
@@ -43,7 +44,7 @@ Field number(const char* key, const char* unit, const NumberRule& rule, const ch
              const char* absent = "") {
   const NumberRule in_unit = rule.in(unit);
   return {{key, "double", unit, meaning},
-          [=] { return rule.text(); },
+          [=] { return rule.in("").text(); },
           [=, &value] { return given(value) ? text_of(*given(value)) : absent; },
           [=, &value](const auto& node, const auto& where) { value = config::read_number(node, where, key, in_unit); },
           [=, &value](const auto& where) {
@@ -96,9 +97,9 @@ std::vector<Field> scene_fields(S& s) {
           "none: no contact; stop: the held object stops at everything else and slides along it; dynamic: it pushes, "
           "lifts and carries what it touches",
           s.contact, as_scene),
-      number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
+      number("gravity", "m/s²", scene::gravity_rule(), "along −z of world", s.gravity, as_scene),
       flag("massless", "no object has mass: each follows the tip, and stays where it is released", s.massless),
-      number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
+      number("force_scale", "–", scene::force_scale_rule(), "ratio of virtual to real force", s.force_scale, as_scene),
       integer("styluses", 1, 255, "number of styluses, each with its tool; silent ones do nothing", s.styluses),
       number("hand.scale", "–", between(1e-3, 1e3),
              "metres in the world per metre of the hand, from the origin; rotations are not scaled", s.hand_scale),
@@ -298,14 +299,13 @@ bool ObjectEdit::operator==(const ObjectEdit& other) const {
 }
 
 void validate(const ObjectEdit& edit) {
-  if (edit.action > ObjectEdit::Action::friction) {
+  if (edit.action > ObjectEdit::Action::friction)
     validation::refuse("", "action", std::to_string(static_cast<int>(edit.action)),
                        "one of " + validation::join(validation::names<ObjectEdit::Action>()));
-  }
   if (edit.X_WL && !edit.X_WL->matrix().allFinite()) validation::refuse("", "pose", "a finite pose");
   if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse("", "pose", "a pose to move to");
-  validation::check_number("", "mass", edit.mass, between(0.0, 1e12).in("kg"));
-  validation::check_number("", "friction", edit.friction, validation::not_negative());
+  validation::check_number("", "mass", edit.mass, scene::mass_rule());
+  validation::check_number("", "friction", edit.friction, scene::friction_rule());
 }
 
 std::vector<SettingDescription> setting_descriptions() {

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FORMATS = {"fastrak/fastrak_protocol.cpp", "fastrak/fastrak_status.cpp", "fastrak/record_numbers.cpp"}
 FORMATS |= {"simulated_fastrak/fastrak_device.cpp", "motion_files/motion_file.cpp", "fastrak/fastrak_protocol.h"}
 FORMATS |= {"math/pack.h", "scene/scene.h", "rod/shape_model.h"}
-MOST_UNNOTICED = 78  # constants that no test detects; may only decrease
+MOST_UNNOTICED = 77  # constants that no test detects; may only decrease
 TYPE = r"(?:unsigned |signed )?(?:double|float|bool|char|short|int|long|unsigned|(?:std::)?u?int\d+_t|(?:std::)?size_t)"
 DEFINITION = re.compile(rf"^(?:inline |static )*const(?:expr)? (?:inline )?{TYPE} (\w+)\s*[={{][^;]*\d", re.MULTILINE)
 ENTRY = re.compile(

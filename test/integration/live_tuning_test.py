@@ -27,7 +27,9 @@ class LiveTuning(unittest.TestCase):
         self.assertEqual(answer["bend_stiffness"], 321.5)
         state = self.fork.next(lambda m: not m.torsion_on, "torsion to be off")
         self.assertEqual((state.bend_stiffness, state.stretch_damping_ratio, state.stretch_on), (321.5, 0.25, True))
-        self.client.update_configuration({"torsion": True, "bend_stiffness": 500.0, "stretch_damping": 1.0})
+        self.client.update_configuration({"torsion": True, "bend_stiffness": 0.0, "stretch_damping": 1.0})
+        self.fork.next(lambda m: m.bend_stiffness == 0.0, "a spring of 0")
+        self.client.update_configuration({"bend_stiffness": 500.0})
         self.fork.next(lambda m: m.torsion_on, "torsion to be on")
 
     def test_changes_by_services_are_shown(self):

@@ -6,6 +6,8 @@
 
 namespace spring_workbench::scene {
 
+/// Maximum mass of a body [kg]. Test: LoadScene.MassThatIsNotPositiveComesFromTheShapeOrIsRefused at 0.
+constexpr double max_mass = 1e12;
 /// Speed of approach below which a body does not bounce [m/s]. If larger, bounces end sooner; at 0 a body never comes
 /// to rest. Test: none: no value tried makes one fail.
 constexpr double rest_speed = 0.02;

@@ -11,7 +11,8 @@ namespace spring_workbench::scene {
 /// Reads a body called `name` from an object's own URDF, a package:// URI or a path, absolute or relative to the
 /// scene's folder. Its link frame is at `X_WL`; if that is absent, the body stands on the bench at x = y = 0. It has
 /// the scene's default material. `roots`: as in load_scene(). Throws InputError naming `where` and the field if `urdf`
-/// is not the URDF of exactly one object, or if the name is empty or already used.
+/// is not the URDF of exactly one object, if the name is empty or already used, or if the scene would have too many
+/// triangles.
 Body read_object(const std::string& name, const std::string& urdf, const std::optional<RigidTransform>& X_WL,
                  const Scene& scene, const std::vector<std::string>& roots, const std::string& where);
 

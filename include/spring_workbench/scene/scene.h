@@ -70,12 +70,12 @@ struct Scene {
   std::string name;                         ///< name of the URDF file without .urdf
   std::string path;                         ///< path of the URDF
   std::vector<Body> bodies;                 ///< all bodies, movable and fixed
-  double gravity = default_gravity;         ///< gravity along −z of world [m/s²], ≥ 0
+  double gravity = default_gravity;         ///< gravity along −z of world [m/s²], 0 … 1000
   double bench_height = 0.0;                ///< z of the workbench plane in world [m]
   Material bench_material;                  ///< material of the bench, and the default for the bodies
   ContactMode contact = ContactMode::stop;  ///< contact mode; the setting `contact` overrides it
   std::string tool = "spring_fork";         ///< tool of each hand at the start; the setting `tool` overrides it
-  double force_scale = 1.0;                 ///< ratio of virtual to real force, > 0; the setting overrides it
+  double force_scale = 1.0;                 ///< ratio of virtual to real force, 1e-9 … 1e9; the setting overrides it
   /// Start pose of the handle of each hand; at least one pose.
   std::vector<RigidTransform> X_WH_start = {RigidTransform::Identity()};
   std::map<std::string, Target> targets;  ///< targets of the objects in an assembly task, by the name of the object

@@ -14,6 +14,7 @@
 #include "spring_workbench/scene/editing.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/validation/input_error.h"
+#include "src/scene/mesh_reader.h"
 #include "support/temporary_folder.h"
 
 namespace spring_workbench::scene::load_scene_test {
@@ -465,24 +466,75 @@ TEST_F(LoadScene, MoreThanAMillionTrianglesAreRefused) {
   EXPECT_TRUE(has(part_refusal("<collision><geometry><mesh filename='big.stl'/></geometry></collision>"), "1000000"));
 }
 
-/// One file at three scales is three meshes. Of its triangles all but one are flat.
-TEST_F(LoadScene, AScenesMeshesHaveABudget) {
-  std::ofstream stl(folder_.path("half.stl"), std::ios::binary);
-  const std::uint32_t count = 700000;
+/// An STL file of which all triangles but one are flat.
+void write_flat_stl(const std::string& path, std::uint32_t triangles) {
+  std::ofstream stl(path, std::ios::binary);
   stl << std::string(80, ' ');
-  stl.write(reinterpret_cast<const char*>(&count), sizeof count);
+  stl.write(reinterpret_cast<const char*>(&triangles), sizeof triangles);
   const std::array<float, 12> corners{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
   stl.write(reinterpret_cast<const char*>(corners.data()), sizeof corners).write("\0", 2);
-  const std::vector<char> flat(50 * (count - 1), 0);
+  const std::vector<char> flat(50 * (triangles - 1), 0);
   stl.write(flat.data(), static_cast<std::streamsize>(flat.size()));
-  stl.close();
-  const auto mesh = [](const std::string& scale) {
-    return "<visual><geometry><mesh filename='half.stl' scale='" + scale + "'/></geometry></visual>";
-  };
+}
+
+std::string drawn_mesh(const std::string& name, const std::string& scale) {
+  return "<visual><geometry><mesh filename='" + name + "' scale='" + scale + "'/></geometry></visual>";
+}
+
+/// One file at three scales is three meshes.
+TEST_F(LoadScene, AScenesMeshesHaveABudget) {
+  write_flat_stl(folder_.path("half.stl"), 700000);
+  const auto mesh = [](const std::string& scale) { return drawn_mesh("half.stl", scale); };
   EXPECT_EQ(load_part(unit_box + mesh("1 1 1") + mesh("2 2 2")).bodies.size(), 1u);
   const std::string refusal = part_refusal(unit_box + mesh("1 1 1") + mesh("2 2 2") + mesh("3 3 3"));
   EXPECT_TRUE(has(refusal, "triangles of the scene")) << refusal;
   EXPECT_TRUE(has(refusal, "2000000")) << refusal;
+}
+
+/// What is in the scene when an object is added counts, each mesh once.
+TEST_F(LoadScene, TheMeshesOfAddedObjectsCountInTheScenesBudget) {
+  write_flat_stl(folder_.path("half.stl"), 700000);
+  write_mesh("mug.urdf", "<robot name='m'><link name='base'>" + inertial("1", "0.01 0.01 0.01") + unit_box +
+                             drawn_mesh("half.stl", "1 1 1") + "</link></robot>");
+  geometry::TriangleMesh mesh;
+  mesh.vertices = {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()};
+  mesh.triangles.assign(700000, Eigen::Vector3i(0, 1, 2));
+  const auto shape = [&] { return geometry::Shape{std::make_shared<const geometry::TriangleMesh>(mesh)}; };
+  Scene scene = load_part(unit_box);
+  scene.bodies[0].collision = {shape()};
+  scene.bodies[0].visual = scene.bodies[0].collision;
+  const auto add = [&]() -> std::string {
+    try {
+      read_object("mug", folder_.path("mug.urdf"), {}, scene, {}, "test");
+    } catch (const validation::InputError& refusal) {
+      return refusal.what();
+    }
+    return "(added)";
+  };
+  EXPECT_EQ(add(), "(added)");
+  scene.bodies.emplace_back();
+  scene.bodies[1].visual = {shape()};
+  const std::string refusal =
+      "mug.urdf:1: link 'base': half.stl: triangles of the scene: expected at most 2000000, got ";
+  EXPECT_TRUE(has(add(), refusal + "2100000"));
+  scene.bodies.pop_back();
+  EXPECT_EQ(add(), "(added)");
+}
+
+TEST_F(LoadScene, MeshesAreReadWithinTheTimeLeftForTheScene) {
+  write_mesh("t.obj", tetrahedron_obj);
+  double left = 60.0;
+  EXPECT_EQ(read_triangles(folder_.path("t.obj"), "test", left).triangles.size(), 4u);
+  EXPECT_LT(left, 60.0);
+  left = 0.0;
+  try {
+    read_triangles(folder_.path("t.obj"), "test", left);
+    ADD_FAILURE() << "read without time";
+  } catch (const validation::InputError& refusal) {
+    EXPECT_EQ(refusal.what(),
+              "test: mesh: invalid value '" + folder_.path("t.obj") +
+                  "': expected a readable mesh (within 30 s and 2 GiB, all meshes of a scene within 60 s)");
+  }
 }
 
 TEST_F(LoadScene, PackagesAreFoundByTheFinderAndInRosPackagePath) {
@@ -561,10 +613,12 @@ TEST_F(LoadScene, BadYamlIsRefusedWithLineAndKey) {
   for (const auto& [yaml, place, key] : std::vector<std::tuple<std::string, std::string, std::string>>{
            {"gravity: -1", ":1:", "gravity"},
            {"gravity: .nan", ":1:", "gravity"},
+           {"gravity: 1e300", ":1:", "gravity"},
            {"\n\nspeed: 1", ":3:", "speed"},
            {"contact: yes", ":1:", "contact"},
            {"tool: fork", ":1:", "tool"},
            {"force_scale: 0", ":1:", "force_scale"},
+           {"force_scale: 1e300", ":1:", "force_scale"},
            {"defaults: {density: 0}", ":1:", "defaults.density"},
            {"defaults: {restitution: 1.5}", ":1:", "defaults.restitution"},
            {"defaults: {colour: red}", ":1:", "defaults.colour"},
@@ -680,20 +734,27 @@ std::string refusal_from(const std::string& path, const std::vector<std::string>
   return "(loaded)";
 }
 
-/// A FIFO does not block, a device is not read, and no link leads out of the allowed folders.
+/// A FIFO does not block, neither a device nor a huge file is read, and no link leads out of the allowed folders.
 TEST_F(LoadScene, TheYamlNextToItIsRestrictedToTheSameFolders) {
   folder_.write("allowed/scene.urdf", "<robot name='test'><link name='world'/></robot>");
   folder_.write("secret.yaml", "password: 1");
   const std::vector<std::string> roots = {folder_.path("allowed")};
   const std::string yaml = folder_.path("allowed/scene.yaml");
-  const auto refusal = [&] {
-    const std::string text = refusal_from(folder_.path("allowed/scene.urdf"), roots);
+  const auto refusal_within = [&](const std::vector<std::string>& folders) {
+    const std::string text = refusal_from(folder_.path("allowed/scene.urdf"), folders);
     std::filesystem::remove(yaml);
     return text;
   };
+  const auto refusal = [&] { return refusal_within(roots); };
   EXPECT_EQ(refusal(), "(loaded)");
   ASSERT_EQ(mkfifo(yaml.c_str(), 0600), 0);
   EXPECT_TRUE(has(refusal(), "a readable file ("));
+  folder_.write("allowed/scene.yaml", "");
+  std::filesystem::resize_file(yaml, std::uintmax_t{2} << 30);
+  EXPECT_TRUE(has(refusal(), "the YAML file next to it: invalid value '" + yaml +
+                                 "': expected a file of at most 256 MiB, got 2048 MiB"));
+  std::filesystem::create_symlink("/dev/zero", yaml);
+  EXPECT_TRUE(has(refusal_within({}), "not a regular file"));
   for (const auto& [target, rule] :
        {std::pair("/dev/zero", "one of the folders"), {"/nowhere", "No such file or directory"}}) {
     std::filesystem::create_symlink(target, yaml);

@@ -216,6 +216,26 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
   expect(addition("brick", object(s, "held").X_WO), "pose: brick would overlap ");
 }
 
+/// The triangles of what is in the scene count; see LoadScene.TheMeshesOfAddedObjectsCountInTheScenesBudget.
+TEST_P(Edits, AnObjectWhoseMeshIsTooMuchForTheSceneFitsWhenAnotherIsRemoved) {
+  folder_.write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  folder_.write(
+      "wedge.urdf",
+      "<robot name='wedge'><link name='wedge'><inertial><mass value='2'/>"
+      "<inertia ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial>"
+      "<visual><geometry><mesh filename='wedge.obj' scale='0.1 0.1 0.1'/></geometry></visual></link></robot>");
+  geometry::TriangleMesh mesh;
+  mesh.vertices = {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()};
+  mesh.triangles.assign(1999998, Eigen::Vector3i(0, 1, 2));
+  scene::Scene full = scene();
+  full.bodies.back().visual = {{std::make_shared<const geometry::TriangleMesh>(mesh)}};
+  Simulation s(full, {});
+  const ObjectEdit wedge = {Action::add, "wedge", folder_.path("wedge.urdf"), at(Vector3d(0.0, 0.0, 3.0))};
+  EXPECT_NE(refusal(s, wedge).find("triangles of the scene: expected at most 2000000, got 2000002"), std::string::npos);
+  s.edit(removal("above"));
+  EXPECT_NO_THROW(s.edit(wedge));
+}
+
 TEST(EditedFriction, DecidesHowFarABoxSlides) {
   for (const double mu : {0.1, 0.4}) {
     SimulationSettings set;
