@@ -6,7 +6,7 @@ if(SPRING_WORKBENCH_FCL_FOUND)
   list(APPEND nodes beside_work checkpoint contact_sound displayed ended_nodes fastrak faults killed_nodes launch_files
     limits live_replay machine_link manipulation many_objects master moved_by_messages
     played_recordings
-    register_tracker rviz study tools)
+    register_tracker rviz study tools two_benches)
 endif()
 foreach(name ${nodes})
   add_rostest(integration/${name}.test)

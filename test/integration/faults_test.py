@@ -34,6 +34,7 @@ from spring_workbench.srv import (
 )
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
 
 from stack import (
     DEADLINE,
@@ -54,6 +55,7 @@ from stack import (
 BOX = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
 NODE = roslib.packages.find_node("spring_workbench", "manipulation")[0]
 SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
+DEAF = "/manipulation/markers to /deaf"
 STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "calibrate:=none", "respawn:=true"]
 SERVICES = {
     "set_dofs": SetForkDofs,
@@ -246,27 +248,23 @@ class Faults(unittest.TestCase):
         os.kill(pid_of("/manipulation"), signal.SIGINT)
         wait_for(lambda: not rospy.has_param("/manipulation/resume"), "the checkpoint to be deleted")
 
+    def deaf(self, topic, kind):
+        """The connection of a subscriber that does not read."""
+        name = ns_join("/manipulation", topic)
+        protocol = slave_api("/manipulation").requestTopic("/deaf", name, [["TCPROS"]])[2]
+        connection = socket.create_connection((protocol[1], protocol[2]))
+        self.addCleanup(connection.close)
+        fields = {"callerid": "/deaf", "topic": name, "type": kind._type, "md5sum": kind._md5sum}
+        fields = [("%s=%s" % field).encode() for field in fields.items()]
+        header = b"".join(len(f).to_bytes(4, "little") + f for f in fields)
+        connection.sendall(len(header).to_bytes(4, "little") + header)
+        return connection
+
     def test_a_subscriber_that_does_not_read_holds_nobody_up(self):
         """It subscribes to the largest topics and never reads: the node continues for the others, with bounded
         memory."""
-        deaf = []
-        for topic, kind, md5 in [
-            ("objects", "spring_workbench/ObjectStates", ObjectStates._md5sum),
-            ("fork", "spring_workbench/ForkState", ForkState._md5sum),
-        ]:
-            name = ns_join("/manipulation", topic)
-            protocol = slave_api("/manipulation").requestTopic("/deaf", name, [["TCPROS"]])[2]
-            connection = socket.create_connection((protocol[1], protocol[2]))
-            connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-            fields = [
-                b"callerid=/deaf",
-                ("topic=" + name).encode(),
-                ("type=" + kind).encode(),
-                ("md5sum=" + md5).encode(),
-            ]
-            header = b"".join(len(f).to_bytes(4, "little") + f for f in fields)
-            connection.sendall(len(header).to_bytes(4, "little") + header)
-            deaf.append(connection)
+        for topic, kind in [("objects", ObjectStates), ("fork", ForkState)]:
+            self.deaf(topic, kind).setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         self.hand.run(3.0)
         pid = pid_of("/manipulation")
         early, seen = memory_of(pid), len(self.objects.messages)
@@ -274,8 +272,44 @@ class Faults(unittest.TestCase):
         self.keep_going()
         self.assertGreater(len(self.objects.messages) - seen, 500)
         self.assertLess(memory_of(pid), early + 30.0)
-        for connection in deaf:
-            connection.close()
+
+    def test_messages_that_are_not_sent_are_counted(self):
+        """A subscriber reads nothing at first, then all that is left for it: the others are those that are counted."""
+        diagnostics = diagnostics_listener()
+        self.addCleanup(diagnostics.subscriber.unregister)
+        unsent = lambda: int(diagnostic_values(diagnostics.messages, "messages lost").get(DEAF, 0))
+        connection = self.deaf("markers", MarkerArray)
+        node = slave_api("/manipulation")
+        numbers = lambda: [info[0] for info in node.getBusInfo("/faults")[2] if info[1] == "/deaf"]
+        (number,) = wait_for(numbers, "the connection")
+
+        def queued():
+            """Number of messages for the subscriber so far."""
+            topics = node.getBusStats("/faults")[0]
+            return next(link[3] for _, links in topics for link in links if link[0] == number)
+
+        end = time.monotonic() + DEADLINE
+        while unsent() < 100:
+            self.assertLess(time.monotonic(), end, "no message is counted: %d of %d" % (unsent(), queued()))
+            self.assertLessEqual(unsent(), queued())
+            self.hand.run(0.5)
+        received = 0
+
+        def read():
+            nonlocal received
+            stream = connection.makefile("rb")
+            stream.read(int.from_bytes(stream.read(4), "little"))  # the header of the connection
+            for length in iter(lambda: stream.read(4), b""):
+                stream.read(int.from_bytes(length, "little"))
+                received += 1
+
+        reader = threading.Thread(target=read)
+        reader.start()
+        self.addCleanup(reader.join)
+        self.addCleanup(connection.shutdown, socket.SHUT_RDWR)
+        complete = lambda: abs(queued() - received - unsent()) <= 0.02 * unsent()
+        wait_for(complete, "what was not sent to be counted")
+        print("%d for it, %d received, %d counted as not sent" % (queued(), received, unsent()))
 
     def test_after_a_stopped_processor_time_is_the_hands_again(self):
         pid = pid_of("/manipulation")

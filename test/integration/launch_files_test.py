@@ -22,7 +22,7 @@ from spring_workbench.msg import Change, ForkState, ObjectStates, StepReport, Ta
 from tf2_msgs.msg import TFMessage
 
 from screen import screen
-from stack import Launched, Listener, make_bag, slave_api, wait_for
+from stack import Launched, Listener, make_bag, recorder_is_connected, wait_for
 
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 
@@ -110,8 +110,9 @@ class LaunchFiles(unittest.TestCase):
 
     def test_tracker_and_manipulation_name_the_same_frames(self):
         for source in ("mouse", "fastrak", "operator"):  # one of each way to start a tracker
-            arguments = ["input:=" + source, "stylus_frame:=pen", "workbench_frame:=table"]
+            arguments = ["input:=" + source, "stylus_frame:=pen", "workbench_frame:=table", "head_frame:=cap"]
             parameters = self.parameters("workbench.launch", *arguments)
+            self.assertEqual(parameters["/tracker_driver/head_frame"], "cap", source)
             for node in ("/manipulation/", "/tracker_driver/"):
                 frames = [parameters[node + key] for key in ("stylus_frame", "workbench_frame")]
                 self.assertEqual(frames, ["pen", "table"], (source, node))
@@ -142,15 +143,6 @@ class LaunchFiles(unittest.TestCase):
     def test_a_sound_file_switches_sound_on(self):
         self.assertEqual(self.parameters("workbench.launch", "sound_file:=/a.wav")["/contact_sound/file"], "/a.wav")
 
-    def recorder_is_connected(self):
-        """Whether rosbag listens to both topics that a replay needs."""
-        try:
-            connections = slave_api("/manipulation").getBusInfo(rospy.get_name())[2]
-        except Exception:  # the node is not there yet
-            return False
-        recorded = {connection[4] for connection in connections if connection[1] == "/record"}
-        return recorded >= {"/manipulation/accepted", "/manipulation/changes"}
-
     def test_a_recorded_run_is_replayed(self):
         rospy.set_param("/use_sim_time", False)
         objects, changes = Listener("manipulation/objects", ObjectStates), Listener("manipulation/changes", Change)
@@ -158,7 +150,7 @@ class LaunchFiles(unittest.TestCase):
             record = "record:=" + os.path.join(folder, "run")
             frames = ["stylus_frame:=pen", "workbench_frame:=table"]
             with Launched("workbench.launch", "rviz:=false", "pause:=0", record, *frames):
-                wait_for(self.recorder_is_connected, "the recorder")
+                wait_for(recorder_is_connected, "the recorder")
                 objects.next(lambda m: any(o.held for o in m.objects), "an object to be held")
                 for _ in range(2):  # the recorder may lose what comes as it is ended
                     changes.next(lambda m: not m.state, "a comparison of states after that")

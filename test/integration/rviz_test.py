@@ -235,7 +235,7 @@ class Benches(OnScreen):
             namespace, name = node.rsplit("/", 1)
             scene = "_scene:=package://spring_workbench/scenes/single_box.urdf"
             program = roslib.packages.find_node("spring_workbench", "manipulation")
-            self.start(*program, scene, "__ns:=" + namespace, "__name:=" + name)
+            self.start(*program, scene, "_frame_prefix:=%s_" % name, "__ns:=" + namespace, "__name:=" + name)
         wait_for(lambda: all(fork.last for fork in self.forks), "the nodes")
 
     def start(self, *command):

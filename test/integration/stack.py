@@ -38,6 +38,16 @@ def pid_of(node):
     return slave_api(node).getPid(rospy.get_name())[2]
 
 
+def recorder_is_connected(namespace=""):
+    """Whether the recorder of a bench listens to both topics that a replay needs."""
+    try:
+        connections = slave_api(namespace + "/manipulation").getBusInfo(rospy.get_name())[2]
+    except Exception:  # the node is not there yet
+        return False
+    recorded = {connection[4] for connection in connections if connection[1] == namespace + "/record"}
+    return recorded >= {namespace + "/manipulation/accepted", namespace + "/manipulation/changes"}
+
+
 def kill_and_wait(node):
     """Kills a node that is started again (`kill -9`); waits until the new one has taken its place."""
     old = pid_of(node)

@@ -57,6 +57,13 @@ std::string why_not_sent(const motion::StationSample& sample, const std::string&
   return "";
 }
 
+std::string eye_frame(const std::string& head_frame, const std::string& eye) {
+  const std::string head = "head";
+  const std::size_t begin = head_frame.rfind(head);
+  if (begin == std::string::npos) return head_frame + "_" + eye;
+  return std::string(head_frame).replace(begin, head.size(), eye);
+}
+
 namespace {
 
 class TrackerDriver {
@@ -131,7 +138,7 @@ class TrackerDriver {
       for (const auto& [name, side] : {std::pair("eye_left", 0.5), std::pair("eye_right", -0.5)}) {
         const Vector3d p(0.0, side * parameters_.interpupillary_distance, 0.0);
         eyes.push_back(ros_common::to_transform(make_transform(p, Quaterniond::Identity()), head_frame(head),
-                                                name + ros_common::hand_suffix(head), ros::Time::now()));
+                                                eye_frame(head_frame(head), name), ros::Time::now()));
       }
     }
     static_transforms_.sendTransform(eyes);

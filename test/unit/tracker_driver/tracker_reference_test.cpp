@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spring_workbench/ros/tracker_driver/tracker_driver.h"
@@ -129,6 +130,13 @@ TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
     const std::string message = refusal_of(yaml);
     EXPECT_NE(message.find(" " + key + ":"), std::string::npos) << yaml << ": " << message;
   }
+}
+
+TEST(EyeFrame, IsNamedAfterTheHead) {
+  for (const auto& [head, eye] :
+       {std::pair("head", "eye_left"), std::pair("head_2", "eye_left_2"), std::pair("left_head", "left_eye_left"),
+        std::pair("a/head_3", "a/eye_left_3"), std::pair("visitor", "visitor_eye_left")})
+    EXPECT_EQ(eye_frame(head, "eye_left"), eye);
 }
 
 }  // namespace

@@ -13,6 +13,10 @@ namespace spring_workbench::tracker_driver {
 /// receiver is out of view.
 std::string why_not_sent(const motion::StationSample& sample, const std::string& source);
 
+/// Returns the name of an eye's frame (`eye`: eye_left or eye_right): that of the head's frame, with the eye in place
+/// of "head" (left_head_2: left_eye_left_2), or behind it if it does not contain "head" (visitor: visitor_eye_left).
+std::string eye_frame(const std::string& head_frame, const std::string& eye);
+
 /// Runs the node `tracker_driver` until shutdown. It plays a motion once (repeatedly with `loop`), or passes on the
 /// samples of a device or of a stylus moved by messages (a marker in rviz, a game pad). It sends tf frames (stylus,
 /// head) and buttons (`stylus/joy`, of station k `stylus_k/joy`; 0: grasp, 1: next tool), stamped with the time at
