@@ -115,7 +115,7 @@ def number_in(row, column):
     """The number in a column, or in its text right after the words behind a colon in `column`; None without one."""
     name, colon, words = (column, "", "") if column in row else column.partition(": ")
     text = row.get(name, "")
-    found = re.search(rf"(?:^|; ){re.escape(words)} (\S+)", text) if colon else re.match(r"(\S+) ± ", text)
+    found = re.search(rf"(?:^|; ){re.escape(words)} ([-+.\deE]+)", text) if colon else re.match(r"(\S+) ± ", text)
     try:
         return float(found.group(1) if found else text)
     except ValueError:

@@ -95,6 +95,7 @@ class Documents(unittest.TestCase):
             header = [line for line in table.read_text(encoding="utf-8").splitlines() if line.startswith("# ")]
             for what in ("machine", "date", "command", "commit"):
                 self.assertTrue(any(re.match(rf"# {what}: \S", line) for line in header), f"{table.name}: no {what}")
+            self.assertFalse((numbers.commit_of(table) or "").endswith("-dirty"), table.name)
 
 
 class Markers(unittest.TestCase):
