@@ -77,12 +77,15 @@ TEST_P(LooseSlab, ABoxStopsAfterItsWayHoweverShortThatIs) {
     for (const double v : {0.05, 0.3, 1.5}) {
       const Vector3d start(-1.0, 0, 0.03);
       Simulation s = let_go(box("body", Vector3d(0.1, 0.08, 0.06), 1.0, start, mu), v * Vector3d::UnitX(), step);
+      double told = 0.0;
       for (int i = 1; i <= 50; ++i) {
-        s.advance_to(held_for + 0.02 * i);
+        told = std::max(told, s.advance_to(held_for + 0.02 * i).position_error);
         const double moving = std::min(0.02 * i, v / brakes);
         const Vector3d exact = start + (v * moving - 0.5 * brakes * moving * moving) * Vector3d::UnitX();
         EXPECT_LT((place(s) - exact).norm(), 1e-5) << step << ' ' << v << ' ' << i;
       }
+      EXPECT_GT(told, 1e-9) << step << ' ' << v;  // when it stops
+      EXPECT_LE(told, 2e-6) << step << ' ' << v;
     }
   }
 }
