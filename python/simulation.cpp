@@ -332,8 +332,12 @@ wrenches of its own or a later time. Raises InputError if a value is not allowed
 
 Like push_stylus, it ignores each pose whose time is not later than the time of the newest one. Raises InputError if a
 pose is invalid.)")
-      .def("advance_to", &Simulation::advance_to, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
+      .def("advance_to", &Simulation::advance_to, py::arg("t_end"),
+           py::arg("pause") = std::numeric_limits<double>::infinity(), py::call_guard<py::gil_scoped_release>(),
            R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
+
+Stops after the step that reaches `pause` [s]; another call to the same t_end goes on with the steps of a call without a
+pause.
 
 If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still act. Raises
 InputError if t_end is not finite.)");

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/hand_input/dead_band.h"
 #include "spring_workbench/hand_input/playout_clock.h"
 #include "spring_workbench/hand_input/pose_filter.h"
@@ -134,16 +134,18 @@ void Feed::push_edge(double t, motion::ButtonEdge edge, std::size_t hand) {
 
 void Feed::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
   simulation_.push_external_wrench(sample, hand);
-  if (record_) record_({Kind::external_wrench, hand, sample.t, RigidTransform::Identity(), sample, committed()});
+  if (record_)
+    record_({Kind::external_wrench, hand, sample.t, RigidTransform::Identity(), sample, committed(), target()});
 }
 
 void Feed::note(AcceptedInput::Kind kind, std::size_t hand, double t, const RigidTransform& X_WS) const {
-  if (record_) record_({kind, hand, t, X_WS, {}, committed()});
+  if (record_) record_({kind, hand, t, X_WS, {}, committed(), target()});
 }
 
 double Feed::committed() const { return began_ ? simulation_.time() : kNever; }
 
 std::optional<double> Feed::next_stop(const LocalTime& now) const {
+  if (target_) return target_;
   double known = -kNever, rests = kNever;
   for (const Hand& hand : hands_) {
     if (!hand.has_sample) continue;
@@ -153,29 +155,33 @@ std::optional<double> Feed::next_stop(const LocalTime& now) const {
   const bool silent = has_sample_ && known == -kNever;
   const double limit = silent ? rests : known, event = simulation_.next_event_time();
   if (has_sample_ && event <= limit) return event;
-  const double step = simulation_.settings().dynamics.step, begin = simulation_.time();
-  const double steps = silent ? std::floor((rests - begin) / step) : 0.0;
-  return steps >= 1.0 ? std::optional<double>(begin + steps * step) : std::nullopt;
+  const double step_end = simulation_.time() + simulation_.settings().dynamics.step;
+  return silent && step_end <= rests ? std::make_optional(step_end) : std::nullopt;
 }
 
-simulation::AdvanceReport Feed::advance_to(double t) {
-  std::multimap<double, std::size_t> releases;
+simulation::AdvanceReport Feed::advance_to(double t, double pause) {
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-    while (const auto release = hands_[hand].reacquisition.take_release(t)) releases.emplace(*release, hand);
+    while (const auto release = hands_[hand].reacquisition.take_release(t)) releases_.emplace(*release, hand);
   }
   simulation::AdvanceReport report;
-  const auto go_to = [&](double end) {
+  const auto reach = [&](double end) {
     const double event = simulation_.next_event_time();
-    report.add(simulation_.advance_to(end));
+    report.add(simulation_.advance_to(end, pause));
     began_ = true;
-    if (event > end) note(AcceptedInput::Kind::rest, 0, end);
+    const double left = simulation_.settings().hand_time_scale * (end - simulation_.time());
+    const bool is_interrupted = pause < end && left >= same_time;
+    target_ = is_interrupted ? std::make_optional(end) : std::nullopt;
+    if (!is_interrupted && event > end) note(AcceptedInput::Kind::rest, 0, end);
+    return !is_interrupted;
   };
-  for (const auto& [at, hand] : releases) {
-    go_to(std::max(at, simulation_.time()));
+  while (!releases_.empty() && releases_.begin()->first <= t) {
+    const auto [at, hand] = *releases_.begin();
+    if (!reach(std::max(at, simulation_.time()))) return report;
+    releases_.erase(releases_.begin());
     simulation_.release(hand);
     note(AcceptedInput::Kind::lost, hand, at);
   }
-  go_to(t);
+  reach(t);
   return report;
 }
 
@@ -201,6 +207,8 @@ void Feed::restart() {
     hand.has_sample = false;
   }
   has_sample_ = began_ = false;
+  target_.reset();
+  releases_.clear();
 }
 
 }  // namespace spring_workbench::hand_input

@@ -27,7 +27,7 @@ constexpr double longest_lag = 0.5;
 /// Pace.IsBehindIfAcceptedSamplesAreNotSimulatedSoon at 0.001, 10.
 constexpr double longest_look_ahead = 0.1;
 /// Processor time of a commit beyond which the next cycle continues it [s]. If longer, services wait longer while the
-/// simulation cannot keep up; if shorter than a usual commit, the committed state gets more stops than samples. Test:
+/// simulation cannot keep up; if shorter than a usual commit, the loop goes round more often. Test:
 /// Pace.ACycleCommitsWhatItCanSimulateInTime.
 constexpr double longest_cycle = 0.1;
 

@@ -61,19 +61,20 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
                                  ": was the recorder too slow, or did it start late?");
   }
   ++next_;
-  advance_to_entry(entry.committed, at_stop);
+  advance_to_entry(entry, at_stop);
   std::visit([&](const auto& what) { apply(what); }, entry.what);
   if (change != nullptr) at_stop(simulation_.front(), {});
 }
 
-void Replayer::advance_to_entry(double t, const AtStop& at_stop) {
+void Replayer::advance_to_entry(const Entry& entry, const AtStop& at_stop) {
   simulation::Simulation& simulation = simulation_.front();
+  const double t = entry.committed;
   for (double event = simulation.next_event_time(); event <= t; event = simulation.next_event_time()) {
     const simulation::AdvanceReport report = simulation.advance_to(event);
     at_stop(simulation, report);
   }
   if (simulation.time() >= t) return;
-  const simulation::AdvanceReport report = simulation.advance_to(t);
+  const simulation::AdvanceReport report = simulation.advance_to(entry.target, t);
   at_stop(simulation, report);
 }
 

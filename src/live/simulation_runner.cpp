@@ -11,7 +11,7 @@ namespace spring_workbench::live {
 class SimulationRunner::RecordedChange {
  public:
   RecordedChange(SimulationRunner& runner, const std::string& what, const Command& command)
-      : runner_(runner), committed_(runner.feed_.committed()), change_{what, command, "", 0, {}} {
+      : runner_(runner), change_{what, command, "", 0, {}} {
     if (runner_.keeps_journal_) change_.hash_before = runner_.simulation_.state_hash();
   }
   ~RecordedChange() {
@@ -20,12 +20,12 @@ class SimulationRunner::RecordedChange {
     if (!runner_.keeps_journal_) return;
     change_.scene = runner_.simulation_.scene().path;
     change_.state = runner_.simulation_.save();
-    runner_.journal_.note(committed_, runner_.stamp(), change_);
+    runner_.journal_.note(committed_, target_, runner_.stamp(), change_);
   }
 
  private:
   SimulationRunner& runner_;
-  double committed_;
+  const double committed_ = runner_.feed_.committed(), target_ = runner_.feed_.target();
   Change change_;
 };
 
@@ -61,22 +61,38 @@ void HandInput::used(double t, const StylusPose& pose) {
   newest_age = pose.age;
 }
 
+void Work::add(const Work& later) {
+  advance.add(later.advance);
+  wall_time += later.wall_time;
+  prediction.position = std::max(prediction.position, later.prediction.position);
+  prediction.angle = std::max(prediction.angle, later.prediction.angle);
+}
+
 CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::LocalTime& now) {
   const Lock lock(mutex_);
   const double begin = pace_.now();
   for (const auto& [hand, came] : events)
     std::copy(came.begin(), came.end(), std::back_inserter(inputs_.at(hand).waiting));
   feed(now);
+  if (!feed_.is_interrupted()) work_ = {};
   CycleReport report;
   report.time_skipped = times_.take_skipped();
-  if (const std::optional<double> stop = feed_.next_stop(now)) commit(*stop, report);
-  report.more = feed_.next_stop(now).has_value();
+  std::optional<double> stop = feed_.next_stop(now);
+  for (bool silent = true; silent && stop; stop = feed_.next_stop(now)) {
+    silent = *stop < simulation_.next_event_time() && pace_.now() - begin < longest_cycle;
+    const double pause = pace_.end_of_cycle(feed_.committed(), *stop, simulation_.settings().dynamics.step);
+    report.add({feed_.advance_to(*stop, pause), 0.0, ahead_.compare(simulation_)});
+    task_.observe(simulation_);
+    ++revision_;
+  }
+  report.more = stop.has_value();
   for (HandInput& input : inputs_) input.add_to(report);
   report.input_age += feed_.time_since_arrival(now);
   report.wall_time = pace_.now() - begin;
+  work_.add(report);
   const double lag = simulation_.newest_sample_time() - simulation_.time();
   if (!simulated_time_) pace_.committed(report.advance.simulated_time, report.wall_time, lag);
-  if (!feed_.next_stop(now)) pace_.caught_up();
+  if (!report.more) pace_.caught_up();
   report.behind = pace_.is_behind();
   return report;
 }
@@ -105,13 +121,6 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   if (const auto* wrench = std::get_if<StylusWrench>(&event)) push(input, *wrench, newest);
 }
 
-void SimulationRunner::commit(double stop, CycleReport& report) {
-  report.advance = feed_.advance_to(pace_.end_of_cycle(feed_.committed(), stop, simulation_.settings().dynamics.step));
-  report.prediction = ahead_.compare(simulation_);
-  task_.observe(simulation_);
-  ++revision_;
-}
-
 std::optional<Shown> SimulationRunner::show(double latency, const hand_input::LocalTime& now, const Wanted& wanted) {
   const Lock lock(mutex_);
   const double horizon =
@@ -127,7 +136,7 @@ std::optional<Committed> SimulationRunner::committed(const Wanted& wanted) const
   const Lock lock(mutex_);
   const Progress at = progress_at(simulation_.time(), std::isfinite(feed_.committed()));
   if (!wanted(at)) return std::nullopt;
-  return Committed{{at, view_of(simulation_, scene_, objects_)}, task_.placements(), task_.score()};
+  return Committed{{at, view_of(simulation_, scene_, objects_)}, task_.placements(), task_.score(), work_};
 }
 
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
@@ -243,14 +252,14 @@ void SimulationRunner::keep_journal(bool keep) {
   keeps_journal_ = keep;
   if (!keep) return feed_.record(nullptr);
   feed_.record([this](const hand_input::AcceptedInput& accepted) {
-    journal_.note(accepted.committed, times_.stamp_of(accepted.t), accepted);
+    journal_.note(accepted.committed, accepted.target, times_.stamp_of(accepted.t), accepted);
   });
   const RecordedChange noted(*this, "the journal begins", {});
 }
 
 void SimulationRunner::note_state() {
   const Lock lock(mutex_);
-  if (keeps_journal_) journal_.note(feed_.committed(), stamp(), comparison_of(simulation_));
+  if (keeps_journal_) journal_.note(feed_.committed(), feed_.target(), stamp(), comparison_of(simulation_));
 }
 
 std::optional<std::int64_t> SimulationRunner::stamp() const {

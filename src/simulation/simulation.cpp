@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -174,7 +173,7 @@ struct Simulation::Impl {
     return earliest([&](const motion::Stylus& stylus) { return stylus.next_event_time(now); });
   }
   void start(double t_end);
-  void advance(double t_end, AdvanceReport& report);
+  void advance(double t_end, double pause, AdvanceReport& report);
   void act(AdvanceReport& report);
   /// The held objects and spring forces before a change; used only by with_handover().
   std::vector<std::pair<std::optional<std::size_t>, Wrench>> held_before;
@@ -373,13 +372,13 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   for (const auto& [hand, pull] : slipping) hand->end_slip(pull, h);
 }
 
-void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
+void Simulation::Impl::advance(double t_end, double pause, AdvanceReport& report) {
   start(t_end);
   const double begin = now;
   objects.contacts().begin_call();
   for (Hand& hand : hands) hand.begin_call();
   act(report);
-  while (now < t_end - same_time) {
+  while (now < std::min(t_end, pause) - same_time) {
     step(end_of_step(t_end), report);
     act(report);
   }
@@ -480,11 +479,11 @@ double Simulation::next_event_time() const {
   return impl_->of_hand(std::min(impl_->next_sample(impl_->now + same_time), impl_->next_event_time()));
 }
 
-AdvanceReport Simulation::advance_to(double t_end) {
+AdvanceReport Simulation::advance_to(double t_end, double pause) {
   validation::check_number("", "t_end", t_end, validation::any_number().in("s"));
   AdvanceReport report;
   impl_->requested_time = t_end;
-  impl_->advance(impl_->in_world(t_end), report);
+  impl_->advance(impl_->in_world(t_end), impl_->in_world(pause), report);
   report.simulated_time /= impl_->settings.hand_time_scale;
   report.time_lost /= impl_->settings.hand_time_scale;
   return report;

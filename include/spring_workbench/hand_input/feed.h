@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct AcceptedInput {
   motion::ExternalWrench wrench;                     ///< for `external_wrench`: the wrench, measured at time `t`
   /// Simulated time at which the input was given [s]; −infinity before the first advance.
   double committed = -std::numeric_limits<double>::infinity();
+  double target = committed;  ///< later than `committed` while an advance to this time is interrupted [s]
 };
 
 /// Filter between a tracker and a simulation, for callers with raw samples, which have noise, outliers and dropouts.
@@ -94,13 +96,17 @@ class Feed {
   bool has_sample() const { return has_sample_; }
   /// Returns the time [s] to which to call advance_to() next, or nothing if more input has to arrive first. This is the
   /// time of the next sample or button edge, if the input of every hand that is not silent is complete up to it. If all
-  /// hands are silent, it is a number of whole steps ahead.
+  /// hands are silent, it is a whole step ahead. While an advance is interrupted, it is its target().
   std::optional<double> next_stop(const LocalTime& now) const;
   /// Returns the simulated time that was reached [s]; −infinity before the first advance.
   double committed() const;
+  bool is_interrupted() const { return target_.has_value(); }  ///< whether advance_to() paused on its way
+  /// Returns the time to which an interrupted advance is on its way [s]; committed() if none is.
+  double target() const { return target_.value_or(committed()); }
   /// Advances the simulation to time `t` [s]. With `on_loss: release`, a hand that is lost before `t` releases its
-  /// object at the time of the loss.
-  simulation::AdvanceReport advance_to(double t);
+  /// object at the time of the loss. The advance is interrupted after the step that reaches `pause` [s]; going on with
+  /// next_stop() then takes the same steps as without a pause.
+  simulation::AdvanceReport advance_to(double t, double pause = std::numeric_limits<double>::infinity());
   /// Extends the motion of each hand of `copy`, a copy of the simulation, to time `t` [s] by predicted samples, for
   /// display. Does nothing unless prediction is on. Note that this also changes the velocity at the newest real sample
   /// of `copy`.
@@ -134,7 +140,9 @@ class Feed {
   std::vector<Hand> hands_;
   std::function<void(const AcceptedInput&)> record_;
   bool has_sample_ = false;
-  bool began_ = false;  ///< the simulation has been advanced since the start
+  bool began_ = false;                           ///< the simulation has been advanced since the start
+  std::optional<double> target_;                 ///< of an interrupted advance [s]
+  std::multimap<double, std::size_t> releases_;  ///< hands that were lost, by the time of the loss [s]
 };
 
 }  // namespace spring_workbench::hand_input

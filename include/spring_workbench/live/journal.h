@@ -31,6 +31,7 @@ Change comparison_of(const simulation::Simulation& simulation);
 struct Entry {
   std::uint64_t index = 0;
   double committed = 0.0;  ///< simulated time reached before it [s]; −infinity before the simulation began
+  double target = 0.0;     ///< later than `committed` if it interrupted an advance to this time [s]
   std::optional<std::int64_t>
       stamp;  ///< stamp of its time, by the clock at that moment [ns]; none before the first sample
   std::variant<hand_input::AcceptedInput, Change> what;
@@ -56,8 +57,9 @@ struct ReplayedChanges {
 /// Numbers entries and stores them until they are taken.
 class Journal {
  public:
-  void note(double committed, std::optional<std::int64_t> stamp, std::variant<hand_input::AcceptedInput, Change> what) {
-    entries_.push_back({next_++, committed, stamp, std::move(what)});
+  void note(double committed, double target, std::optional<std::int64_t> stamp,
+            std::variant<hand_input::AcceptedInput, Change> what) {
+    entries_.push_back({next_++, committed, target, stamp, std::move(what)});
   }
   /// Returns the entries since the last call.
   std::vector<Entry> take() { return std::exchange(entries_, {}); }
@@ -89,7 +91,7 @@ class Replayer {
   const ReplayedChanges& changes() const { return changes_; }
 
  private:
-  void advance_to_entry(double t, const AtStop& at_stop);
+  void advance_to_entry(const Entry& entry, const AtStop& at_stop);
   void apply(const hand_input::AcceptedInput& accepted);
   void apply(const Change& change);
   bool repeat(const Change& change);

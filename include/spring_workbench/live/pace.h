@@ -25,9 +25,9 @@ class Pace {
   double work(double time) const { return cost_ * time; }
   /// Returns whether there is enough time to advance a copy by `time` [s] as well; not after a change, until a commit.
   bool can_look_ahead(double time) const;
-  /// Returns the time up to which one cycle commits on the way from `begin` (−infinity: nothing is committed) to `stop`
-  /// [s]: whole steps of `step` [s], as many as can be simulated in a tenth of a second; one step if a change was made
-  /// and nothing committed since. The next cycle continues.
+  /// Returns the time at which one cycle pauses on the way from `begin` (−infinity: nothing is committed) to `stop`
+  /// [s]: after as many steps of `step` [s] as can be simulated in a tenth of a second; after one step if a change was
+  /// made and nothing committed since. The next cycle continues.
   double end_of_cycle(double begin, double stop, double step) const;
   /// Reports a change, after which the costs are not known.
   void changed() { measured_ = false; }

@@ -28,10 +28,11 @@ namespace spring_workbench::live {
 
 /// Progress of the committed simulation.
 struct Progress {
-  bool has_sample = false;   ///< a sample has arrived since the start
-  bool began = false;        ///< the simulation has reached the first sample
-  std::int64_t stamp = 0;    ///< stamp of the simulated time reached [ns]; meaningless before `began`
-  std::size_t revision = 0;  ///< increases with every change of the committed simulation
+  bool has_sample = false;      ///< a sample has arrived since the start
+  bool began = false;           ///< the simulation has reached the first sample
+  std::int64_t stamp = 0;       ///< stamp of the simulated time reached [ns]; meaningless before `began`
+  std::size_t revision = 0;     ///< increases with every change of the committed simulation
+  bool is_interrupted = false;  ///< on its way to a sample or button edge: the steps to it take several cycles
 };
 
 /// A simulation at one moment.
@@ -40,10 +41,19 @@ struct Snapshot {
   View view;
 };
 
+/// What was simulated, and at what cost.
+struct Work {
+  simulation::AdvanceReport advance;
+  double wall_time = 0.0;      ///< [s], by the steady clock
+  PredictionError prediction;  ///< error of the display for the time that is now committed
+  void add(const Work& later);
+};
+
 /// The committed simulation and the state of the task at that moment.
 struct Committed : Snapshot {
   std::vector<assembly::Placement> placements;
   assembly::TaskScore score;
+  Work work;  ///< of the cycles that took the steps to this sample or button edge
 };
 
 /// The displayed simulation; the stamp is that of the displayed time.
@@ -55,13 +65,10 @@ struct Shown : Snapshot {
 using Wanted = std::function<bool(const Progress&)>;
 
 /// Report of one cycle of the physics loop.
-struct CycleReport {
-  simulation::AdvanceReport advance;
-  double wall_time = 0.0;                           ///< [s], by the steady clock
+struct CycleReport : Work {
   bool behind = false;                              ///< the simulation is slower than the hands: samples are dropped
   double time_skipped = 0.0;                        ///< time skipped because the hands' clock jumped [s]
   bool more = false;                                ///< more can be committed at once: call `cycle` again
-  PredictionError prediction;                       ///< error of the display for the time that is now committed
   double input_age = 0.0;                           ///< age of the newest sample by its stamp [s]
   std::vector<std::vector<RejectedPose>> rejected;  ///< poses of each hand that the gate rejected
 };
@@ -122,8 +129,8 @@ class SimulationRunner {
                    const hand_input::InputSettings& input, bool simulated_time, Pace pace = Pace());
 
   /// Feeds the events and then commits up to the next sample or button edge, if at local time `now` the input is
-  /// complete up to there; on the wall clock no more than Pace::end_of_cycle. In simulated time, everything that the
-  /// samples before a new epoch determine is committed before the epoch begins.
+  /// complete up to there. Where these steps take long (Pace::end_of_cycle), the next cycles continue them; the steps
+  /// are the same. In simulated time, all that the samples before a new epoch determine is committed before it begins.
   CycleReport cycle(const HandEvents& events, const hand_input::LocalTime& now);
 
   /// Advances the displayed copy to the newest sample; with `latency` > 0 [s], further by `latency` and by the local
@@ -184,13 +191,12 @@ class SimulationRunner {
   void apply(HandInput& input, const StylusWrench& wrench) { push(input, wrench, times_.time_of_stamp(wrench.stamp)); }
   void push(HandInput& input, StylusWrench wrench, double t);
   Progress progress_at(double t, bool began) const {
-    return {feed_.has_sample(), began, times_.stamp_of(t), revision_};
+    return {feed_.has_sample(), began, times_.stamp_of(t), revision_, feed_.is_interrupted()};
   }
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double time_of(const HandInput& input, double t);
   void feed(HandInput& input, const StylusEvent& event);
   void feed(const hand_input::LocalTime& now);
-  void commit(double stop, CycleReport& report);
   std::optional<std::int64_t> stamp() const;
   void restart_time();
   /// Makes a change by `perform`, and continues in the next scene, if there is one.
@@ -217,6 +223,7 @@ class SimulationRunner {
   Places places_;  ///< poses of objects, for the first epoch
   Undo undo_;
   std::size_t revision_ = 0;
+  Work work_;  ///< see Committed
   bool keeps_journal_ = false;
   Journal journal_;
 };

@@ -3,6 +3,7 @@
 #include <bitset>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -181,9 +182,10 @@ class Simulation {
   double next_event_time() const;
 
   /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; a step also ends at each
-  /// sample, button edge and change of a wrench. If `t_end` is not later than time(), no time passes, but pending
-  /// buttons act. Throws InputError if `t_end` is not finite.
-  AdvanceReport advance_to(double t_end);
+  /// sample, button edge and change of a wrench. Stops after the step that reaches `pause` [s]; another call to the
+  /// same `t_end` goes on with the steps of a call without a pause. If `t_end` is not later than time(), no time
+  /// passes, but pending buttons act. Throws InputError if `t_end` is not finite.
+  AdvanceReport advance_to(double t_end, double pause = std::numeric_limits<double>::infinity());
 
   void reset();  ///< releases all objects, returns them to their start poses and forgets all samples
   /// Releases all objects and places the named ones at rest at these poses; unsupported ones then fall. Throws

@@ -44,7 +44,7 @@ void Outbox::take_shown(double latency, const hand_input::LocalTime& now) {
 
 bool Outbox::take_committed(const live::CycleReport& report, double deadline) {
   std::optional<live::Committed> committed = runner_.committed([this](const live::Progress& progress) {
-    return (progress.began || !progress.has_sample) && committed_due_.due(progress);
+    return (progress.began || !progress.has_sample) && !progress.is_interrupted && committed_due_.due(progress);
   });
   if (!committed) return false;
   std::unique_lock<std::mutex> lock(mutex_);

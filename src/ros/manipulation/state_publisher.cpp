@@ -47,6 +47,7 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
       message.header = header;
       message.index = entry.index;
       message.committed = entry.committed;
+      message.target = entry.target;
       publisher.publish(message);
     };
     const auto* accepted = std::get_if<hand_input::AcceptedInput>(&entry.what);
@@ -64,17 +65,17 @@ void StatePublisher::publish(const CommittedState& state, double publish_time) {
   publish_made(task_publisher_, header, [&] { return to_message(state.committed.placements, state.committed.score); });
   publish_made(steps_publisher_, header, [&] {
     const live::CycleReport& report = state.report;
-    StepReport message = to_message(report.advance);
+    StepReport message = to_message(state.committed.work.advance);
     (markers_were_built_ ? message.active : message.skipped).push_back("markers");
-    message.wall_time = report.wall_time;
+    message.wall_time = state.committed.work.wall_time;
     message.publish_time = publish_time;
     message.deadline_missed = ros_common::loop_time() > state.deadline;
     message.integrator = validation::name_of(view.settings.dynamics.integrator);
     message.behind = report.behind;
     message.input_age = report.input_age;
     message.horizon = horizon_;
-    message.prediction_error = report.prediction.position;
-    message.prediction_angle_error = report.prediction.angle;
+    message.prediction_error = state.committed.work.prediction.position;
+    message.prediction_angle_error = state.committed.work.prediction.angle;
     return message;
   });
 }

@@ -19,9 +19,10 @@ constexpr double kGravity = 9.81;
 const Vector3d left(-0.5, 0.0, 0.7), right(0.5, 0.0, 0.7);  // handles: the tips are in the boxes
 
 /// A box at the tip of each hand.
-simulation::Simulation make_simulation() {
+simulation::Simulation make_simulation(double step = 0.02) {
   const Vector3d size(0.1, 0.06, 0.04), tip(0.0, 0.0, -0.2);
   simulation::SimulationSettings settings;
+  settings.dynamics.step = step;
   settings.grasp.release = tools::Release::dropped;
   return simulation::Simulation(
       scene_of({box("left", size, 1.0, left + tip), box("right", size, 1.0, right + tip)}, scene::ContactMode::none),
@@ -206,28 +207,45 @@ TEST(Feed, TheSlowestHandLimitsTimeUntilItIsSilent) {
   EXPECT_TRUE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));
 }
 
-/// Identical bits whether commits are frequent or rare, with buttons at any time.
+/// Identical bits whether commits are frequent or rare, or paused after any number of steps, with buttons at any time,
+/// through a loss and a silence.
 TEST(Feed, WhatIsCommittedDependsOnTheMessagesAlone) {
   std::vector<simulation::SimulationState> ends;
-  for (const unsigned every : {1u, 3u, 17u}) {
-    simulation::Simulation simulation = make_simulation();
-    Feed feed(simulation, InputSettings());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  int interrupted = 0;
+  for (const auto& [every, pauses] : {std::pair(1u, false), {3u, false}, {17u, false}, {1u, true}, {17u, true}}) {
+    simulation::Simulation simulation = make_simulation(0.0031);
+    InputSettings settings;
+    settings.on_loss = OnLoss::release;
+    settings.loss_timeout = 0.52;
+    Feed feed(simulation, settings);
+    const auto commit = [&, pauses = pauses](double t) {
+      while (const auto stop = feed.next_stop({10.0 + t, 10.0 + t})) {
+        const double begin = simulation.time();
+        feed.advance_to(*stop, pauses ? begin + share(random) * (*stop - begin) : kInf);
+        interrupted += feed.is_interrupted() ? 1 : 0;
+        EXPECT_LE(feed.target(), *stop);  // earlier if the hand is lost on the way
+        EXPECT_EQ(feed.target() > simulation.time(), feed.is_interrupted());
+      }
+    };
     unsigned count = 0;
     for (const motion::PoseSample& sample : shaking_hand()) {
-      if (sample.t > 1.985) break;
       const LocalTime now{10.0 + sample.t, 10.0 + sample.t};
       const Quaterniond q(sample.X.linear());
       if (count % 7 == 0) feed.push_button(sample.t + 0.3 * kInterval, count % 70 != 63);
       if (count % 7 == 0) feed.buttons_known(sample.t + 0.3 * kInterval, now);
       feed.push_stylus({sample.t, sample.X.translation(), q}, RigidTransform::Identity(), now);
-      if (++count % every == 0) commit(feed, now);
+      if (++count % every == 0 || count == 200) commit(sample.t);
     }
-    commit(feed, {10.0 + 2.3, 10.0 + 2.3});
-    EXPECT_EQ(simulation.time(), kInterval * 197);
+    for (double t = 5.0; t < 6.0; t += pauses ? 0.1 * share(random) : 0.05) commit(t);
+    commit(6.0);
+    EXPECT_GT(simulation.time(), 5.9);
+    EXPECT_EQ(feed.reacquisition_counts(0).losses, 2u);
     ends.push_back(simulation.save());
   }
-  EXPECT_EQ(ends[1].hash(), ends[0].hash());
-  EXPECT_EQ(ends[2].hash(), ends[0].hash());
+  EXPECT_GT(interrupted, 500);
+  for (const simulation::SimulationState& end : ends) EXPECT_EQ(end.hash(), ends[0].hash());
 }
 
 /// Invalid samples of every kind, mixed with those of a hand.

@@ -5,8 +5,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -208,6 +210,90 @@ TEST(Pace, ACycleCommitsWhatItCanSimulateInTime) {
   pace.committed(1e-6, 1e-9, 0.0);  // not averaged with what was before
   EXPECT_EQ(pace.end_of_cycle(1.0, 100.0, 1e-6), 100.0);
   EXPECT_TRUE(pace.can_look_ahead(1.0));
+}
+
+/// A hand that shakes a box, falls silent and comes back, with steps of 2 ms. `tick`: time that a cycle seems to take
+/// [s].
+struct ShakenBox {
+  explicit ShakenBox(double tick)
+      : runner(scene, simulation::SimulationSettings(), hand_input::InputSettings(), false,
+               Pace([tick, ticks = 0.0]() mutable { return ticks += tick; })) {
+    runner.keep_journal(true);
+    Command command(Command::Kind::settings);
+    command.dynamics_change.step = 2e-3;
+    runner.change("set_integrator", command);
+  }
+  /// Simulates three seconds; `after_cycle(progress)` is called after each cycle.
+  void run(const std::function<void(const Progress&)>& after_cycle) {
+    for (int k = 0; k < 300; ++k) {
+      const double t = 0.01 * k;
+      HandEvents events;
+      StylusPose pose;
+      const Vector3d p = grip + Vector3d(0.1 * std::sin(20.0 * t), 0.0, 0.0);
+      pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
+      pose.arrival = {t, t};
+      if (k == 0) events[0].emplace_back(NewEpoch{1'000'000'000});
+      if (k < 100 || k > 200) events[0].emplace_back(pose);
+      if (k == 1) events[0].emplace_back(StylusButton{t, motion::ButtonEdge::grasp});
+      for (bool more = true; more; events.clear()) {
+        more = runner.cycle(events, {t, t}).more;
+        after_cycle(runner.committed(always)->at);
+      }
+    }
+    EXPECT_TRUE(runner.locked([](const auto& s) { return s.objects()[0].held; }));
+  }
+  std::uint64_t hash() const {
+    return runner.locked([](const auto& s) { return s.state_hash(); });
+  }
+
+  const Vector3d grip = Vector3d(0.0, 0.0, 0.7);
+  const scene::Scene scene =
+      scene_of({box("box", Vector3d(0.1, 0.06, 0.04), 1.0, grip + Vector3d(0.0, 0.0, -0.2))}, scene::ContactMode::none);
+  SimulationRunner runner;
+};
+
+/// How far one cycle gets depends on the clock, but neither the steps nor the times that count as committed do.
+TEST(Pace, StepsDoNotDependOnHowLongACycleTakes) {
+  std::vector<std::vector<std::int64_t>> committed;
+  std::vector<std::uint64_t> ends;
+  for (const double tick : {0.0, 0.2}) {
+    ShakenBox shaken(tick);
+    int interrupted = 0;
+    committed.emplace_back();
+    shaken.run([&](const Progress& at) {
+      interrupted += at.is_interrupted ? 1 : 0;
+      if (!at.is_interrupted && at.began) committed.back().push_back(at.stamp);
+    });
+    ends.push_back(shaken.hash());
+    std::cout << committed.back().size() << " times, " << interrupted << " cycles ended before one\n";
+    EXPECT_EQ(interrupted > 500, tick > 0.0);
+  }
+  EXPECT_EQ(ends[1], ends[0]);
+  const std::set<std::int64_t> quick(committed[0].begin(), committed[0].end());
+  const auto silence = [](std::int64_t stamp) { return stamp > 1'990'000'000 && stamp < 3'010'000'000; };
+  for (const std::int64_t stamp : committed[1]) EXPECT_TRUE(silence(stamp) || quick.count(stamp) == 1u) << stamp;
+}
+
+/// Changes take effect between two cycles, also on the way to a sample, and the replayed journal leads to the same
+/// bits.
+TEST(Pace, AChangeBetweenTwoStepsIsReplayed) {
+  ShakenBox shaken(0.2);
+  int cycles = 0, on_the_way = 0;
+  shaken.run([&](const Progress& at) {
+    if (++cycles % 17 != 0) return;
+    on_the_way += at.is_interrupted ? 1 : 0;
+    Command command(Command::Kind::settings);
+    command.dynamics_change.step = cycles % 2 == 0 ? 2e-3 : 1.7e-3;
+    shaken.runner.change("set_integrator", command);
+    shaken.runner.note_state();
+  });
+  EXPECT_GT(on_the_way, 30);
+  Replayer replayer{[&](const std::string&) { return shaken.scene; }, {}};
+  for (const Entry& entry : shaken.runner.take_journal()) replayer.play(entry, [](auto&, auto&) {});
+  EXPECT_TRUE(replayer.changes().mismatches.empty());
+  shaken.runner.note_state();
+  for (const Entry& entry : shaken.runner.take_journal()) replayer.play(entry, [](auto&, auto&) {});
+  EXPECT_EQ(replayer.simulation()->state_hash(), shaken.hash());
 }
 
 /// A hand that shakes an object falls silent, and each step takes a microsecond: the silence is simulated in parts, and

@@ -29,7 +29,7 @@ class Outbox {
   void take_shown(double latency, const hand_input::LocalTime& now);
   /// Takes the committed state, if it is due, and returns whether it was. To be called from the loop's thread.
   /// `report`: of the cycle that led to it; `deadline`: of this cycle, in local time [s]. Nothing is due between the
-  /// arrival of the first sample and the first step of the simulation.
+  /// first sample and the first step of the simulation, nor while the steps to a sample or button edge are interrupted.
   bool take_committed(const live::CycleReport& report, double deadline);
 
   /// Number of cycles whose messages were sent after the deadline.

@@ -70,7 +70,7 @@ live::Entry to_entry(const Accepted& message) {
     accepted.wrench = {message.time, to_wrench(Eigen::Map<const Vector6d>(message.wrench.data())),
                        static_cast<motion::ExternalWrench::Axes>(message.wrench_axes)};
   }
-  return {message.index, message.committed, std::nullopt, accepted};
+  return {message.index, message.committed, message.target, std::nullopt, accepted};
 }
 
 live::Entry to_entry(const Change& message) {
@@ -80,7 +80,7 @@ live::Entry to_entry(const Change& message) {
   change.scene = message.scene;
   change.hash_before = std::stoull(message.hash_before, nullptr, 16);
   if (!message.state.empty()) change.state = simulation::parse_state(message.state);
-  return {message.index, message.committed, std::nullopt, change};
+  return {message.index, message.committed, message.target, std::nullopt, change};
 }
 
 /// The number, from 0, of the hand that a name belongs to: `first`, `first`_2 and so on; none for any other name.
