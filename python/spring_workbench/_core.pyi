@@ -385,6 +385,7 @@ class Simulation:
 
         Stops after the step that reaches `pause` [s]; another call to the same t_end goes on with the steps of a call
         without a pause.
+
         If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still
         act. Raises InputError if t_end is not finite."""
     @property
