@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """Every number in a document that has a marker equals the value in its table or test
 (benchmark/report/document_numbers.py), and a number with a unit has one, or is given: it is a condition in a marker of
-the same paragraph, or listed in given_quantities.txt (settings, constants, definitions, targets). Text that begins with
+the same paragraph, or listed, as often as it occurs, in given_quantities.txt (settings, constants, definitions,
+targets). Text that begins with
 code (`drops.h`: ...) says what that code does, and the cells of a table before the first with a marker name its row."""
+import collections
 import importlib.util
 import pathlib
 import re
@@ -55,13 +57,14 @@ def unmarked(text):
 
 class Documents(unittest.TestCase):
     def test_mark_what_is_measured(self):
-        given = {}
+        given = collections.defaultdict(collections.Counter)
         for line in GIVEN.read_text(encoding="utf-8").splitlines():
             name, _, quantities = line.partition(": ")
-            given.setdefault(name, set()).update(quantities.split("; "))
+            for quantity, _, often in (listed.partition(" (") for listed in quantities.split("; ")):
+                given[name][quantity] += int(often.rstrip(")") or 1)
         for path in (path for pattern in numbers.DOCUMENTS for path in ROOT.glob(pattern)):
             name = path.relative_to(ROOT).as_posix()
-            self.assertEqual(set(unmarked(path.read_text(encoding="utf-8"))), given.get(name, set()), name)
+            self.assertEqual(collections.Counter(unmarked(path.read_text(encoding="utf-8"))), given[name], name)
 
     def test_of_which_a_number_has_no_marker_are_found(self):
         for text, found in (
