@@ -46,7 +46,14 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS = "benchmark/results"
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "benchmark/README.md", "benchmark/contact/README.md", "doc/*.md", "doc/tutorials/*.md"]
+DOCUMENTS = [
+    "README.md",
+    "CONTRIBUTING.md",
+    "benchmark/README.md",
+    "benchmark/contact/README.md",
+    "doc/*.md",
+    "doc/tutorials/*.md",
+]
 VALUE = r"(the|max|min|mean|sum|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?"
 MARKER = re.compile(rf"<!--\s*{VALUE}(?:\s+times\s+([-+.\deE]+))?\s*-->")
 TEST = re.compile(r"<!--\s*test\s+([\w.]+)(?:\s+times\s+([-+.\deE]+))?\s*-->")
