@@ -180,7 +180,9 @@ class DartBody final : public BodyEngine {
 }  // namespace
 
 std::vector<RodEngine> dart_rods() {
-  const auto make = [](const FreeBody& body, LoadLaw load) { return std::make_unique<DartBody>(body, std::move(load)); };
+  const auto make = [](const FreeBody& body, LoadLaw load) {
+    return std::make_unique<DartBody>(body, std::move(load));
+  };
   return {{"dart_explicit", RodForce::When::begin_of_step, make}, {"dart_stable", RodForce::When::end_of_step, make}};
 }
 

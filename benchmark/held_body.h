@@ -52,9 +52,9 @@ BodyState start_state(const Scenario& scene);
 
 /// A rigid body as it is put into an engine, free but for gravity along −z of W and loads.
 struct FreeBody {
-  double mass = 1.0;                     ///< [kg]
+  double mass = 1.0;                    ///< [kg]
   Vector3d inertia = Vector3d::Ones();  ///< principal, about and in O [kg m²]
-  double gravity = 9.81;                 ///< [m/s²]
+  double gravity = 9.81;                ///< [m/s²]
   BodyState start;
 };
 /// The object of a scene. The torsion spring does not carry the weight: no gravity in scene B.

@@ -97,9 +97,8 @@ Wrench RodForce::load(double t, double h, const BodyState& body) {
 RodRun run_engine(const RodCase& one, const std::string& shape, const RodEngine& engine, double step) {
   using Clock = std::chrono::steady_clock;
   RodForce force(one, shape, engine.when);
-  const auto body = engine.make(force.body(), [&force](double t, double h, const BodyState& now) {
-    return force.load(t, h, now);
-  });
+  const auto body =
+      engine.make(force.body(), [&force](double t, double h, const BodyState& now) { return force.load(t, h, now); });
   const std::vector<double> times = output_times(one), ends = step_ends(one);
   RodRun run;
   run.X_WO.reserve(times.size());

@@ -20,15 +20,15 @@ class RodForce {
   enum class When {
     /// Those at the begin of the step: an explicit force. At long steps the engine is unstable.
     begin_of_step,
-    /// Those at its end, as far as a step of semi-implicit Euler and a linearisation of the law predict them: the stable
-    /// PD control of Tan, Liu and Turk (Stable proportional-derivative controllers, IEEE Computer Graphics and
-    /// Applications 31(4), 2011), which users of these engines have for stiff springs that are forces. No engine takes
-    /// a stiffness of 6 × 6 itself: Bullet's and ODE's constraints have one for each axis, DART's joints one for each
-    /// coordinate, and MuJoCo's `implicit` integrators do not know the derivatives of a force that is a user's.
+    /// Those at its end, as far as a step of semi-implicit Euler and a linearisation of the law predict them: stable PD
+    /// control (Tan, Liu and Turk, Stable proportional-derivative controllers, IEEE Computer Graphics and Applications
+    /// 31(4), 2011), which users of these engines have for stiff springs that are forces. No engine takes a stiffness
+    /// of 6 × 6 itself: Bullet's and ODE's constraints have one for each axis, DART's joints one for each coordinate,
+    /// and MuJoCo's `implicit` integrators do not know the derivatives of a force that is a user's.
     end_of_step
   };
 
-  /// `one` has all degrees of freedom on, and a shape model with six coordinates (can_push()); it must outlive this.
+  /// `one` has all degrees of freedom on, and a shape model with six coordinates (can_push()).
   RodForce(const RodCase& one, const std::string& shape, When when);
   static bool can_push(const RodCase& one, const std::string& shape);
 
@@ -72,9 +72,9 @@ struct RodEngine {
   std::function<std::unique_ptr<BodyEngine>(const FreeBody& body, LoadLaw load)> make;
 };
 
-/// Runs a case in an engine, in equal steps of at most `step` [s] between the times at which one must end (step_ends()).
-/// The timed loop contains the steps with the law and the poses at the outputs. Not finite if the body escapes or the
-/// rod does not reach it.
+/// Runs a case in an engine, in equal steps of at most `step` [s] between the times at which one must end
+/// (step_ends()). The timed loop contains the steps with the law and the poses at the outputs. Not finite if the body
+/// escapes or the rod does not reach it.
 RodRun run_engine(const RodCase& one, const std::string& shape, const RodEngine& engine, double step);
 
 }  // namespace spring_workbench::benchmark

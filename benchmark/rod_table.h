@@ -23,9 +23,9 @@ struct RodTablePlan {
 RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
 
 /// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand()
-/// "samples"; with the default shape general methods beside them and, if no degree of freedom is off (RodForce::can_push),
-/// engines. The units of work of a case and shape, its reference,
-/// its rows and their run times once more, are one shard's, and its methods take turns, as in error_table().
+/// "samples"; with the default shape general methods beside them and, if no degree of freedom is off
+/// (RodForce::can_push), engines. The units of work of a case and shape, its reference, its rows and their run times
+/// once more, are one shard's, and its methods take turns, as in error_table().
 std::size_t unit_count(const RodTablePlan& plan);
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, const std::vector<RodEngine>& engines, Units& units);
 
