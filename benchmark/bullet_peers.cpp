@@ -190,7 +190,7 @@ std::vector<RodEngine> bullet_rods() {
   const auto make = [](const FreeBody& body, LoadLaw load) {
     return std::make_unique<BulletBody>(body, std::move(load));
   };
-  return {{"bullet_explicit", RodForce::When::begin_of_step, make},
+  return {{"bullet_explicit", RodForce::When::start_of_step, make},
           {"bullet_stable", RodForce::When::end_of_step, make}};
 }
 

@@ -183,7 +183,7 @@ std::vector<RodEngine> dart_rods() {
   const auto make = [](const FreeBody& body, LoadLaw load) {
     return std::make_unique<DartBody>(body, std::move(load));
   };
-  return {{"dart_explicit", RodForce::When::begin_of_step, make}, {"dart_stable", RodForce::When::end_of_step, make}};
+  return {{"dart_explicit", RodForce::When::start_of_step, make}, {"dart_stable", RodForce::When::end_of_step, make}};
 }
 
 std::vector<MethodPtr> dart_peers() {

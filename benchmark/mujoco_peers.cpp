@@ -264,8 +264,8 @@ std::vector<RodEngine> mujoco_rods() {
       return std::make_unique<MujocoBody>(integrator, body, std::move(load));
     };
   };
-  return {{"mujoco_euler", RodForce::When::begin_of_step, made_with(mjINT_EULER)},
-          {"mujoco_rk4", RodForce::When::begin_of_step, made_with(mjINT_RK4)},
+  return {{"mujoco_euler", RodForce::When::start_of_step, made_with(mjINT_EULER)},
+          {"mujoco_rk4", RodForce::When::start_of_step, made_with(mjINT_RK4)},
           {"mujoco_stable", RodForce::When::end_of_step, made_with(mjINT_EULER)}};
 }
 

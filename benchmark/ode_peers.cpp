@@ -196,7 +196,7 @@ class OdeBody final : public BodyEngine {
 
 std::vector<RodEngine> ode_rods() {
   const auto make = [](const FreeBody& body, LoadLaw load) { return std::make_unique<OdeBody>(body, std::move(load)); };
-  return {{"ode_explicit", RodForce::When::begin_of_step, make}, {"ode_stable", RodForce::When::end_of_step, make}};
+  return {{"ode_explicit", RodForce::When::start_of_step, make}, {"ode_stable", RodForce::When::end_of_step, make}};
 }
 
 std::vector<MethodPtr> ode_peers() {

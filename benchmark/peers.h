@@ -35,8 +35,8 @@ std::vector<MethodPtr> ode_peers();
 /// DART: implicit joint springs on a driven hand.
 std::vector<MethodPtr> dart_peers();
 
-/// The engines with the rod's law as a force (RodForce), begin of step and end of step each; MuJoCo by its Euler method
-/// and, at the begin of the step and its stages, by Runge–Kutta.
+/// The engines with the rod's law as a force (RodForce), of the start and of the end of the step; MuJoCo by its Euler
+/// method and, with the force of each stage, by Runge–Kutta.
 std::vector<RodEngine> bullet_rods();
 std::vector<RodEngine> mujoco_rods();
 std::vector<RodEngine> ode_rods();

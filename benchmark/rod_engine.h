@@ -18,13 +18,13 @@ class RodForce {
  public:
   /// Whose pose and velocity the law is given, in a step of an engine.
   enum class When {
-    /// Those at the begin of the step: an explicit force. At long steps the engine is unstable.
-    begin_of_step,
+    /// Those at the start of the step: an explicit force. At long steps the engine is unstable.
+    start_of_step,
     /// Those at its end, as far as a step of semi-implicit Euler and a linearisation of the law predict them: stable PD
     /// control (Tan, Liu and Turk, Stable proportional-derivative controllers, IEEE Computer Graphics and Applications
     /// 31(4), 2011), which users of these engines have for stiff springs that are forces. No engine takes a stiffness
     /// of 6 × 6 itself: Bullet's and ODE's constraints have one for each axis, DART's joints one for each coordinate,
-    /// and MuJoCo's `implicit` integrators do not know the derivatives of a force that is a user's.
+    /// and MuJoCo's `implicit` integrators do not know the derivatives of a user's force (its issue 2433).
     end_of_step
   };
 
@@ -68,7 +68,7 @@ using LoadLaw = std::function<Wrench(double t, double h, const BodyState& body)>
 /// An engine that is given the rod's law.
 struct RodEngine {
   std::string name;
-  RodForce::When when = RodForce::When::begin_of_step;
+  RodForce::When when = RodForce::When::start_of_step;
   std::function<std::unique_ptr<BodyEngine>(const FreeBody& body, LoadLaw load)> make;
 };
 

@@ -50,7 +50,7 @@ TEST(RodForce, ABodyUnderItHasTheAccelerationOfTheEquationOfMotion) {
       const dynamics::HeldBody held = held_body(one, shape);
       const SampledHand hand(one.hand, one.fork.length);
       for (int i = 0; i < 20; ++i) {
-        RodForce force(one, shape, When::begin_of_step);
+        RodForce force(one, shape, When::start_of_step);
         const double t = 0.04 * i + 0.013;
         dynamics::StrainState state = held.zero_state();
         for (int k = 0; k < 6; ++k) state.q[k] = share(random) * held.units()[k];
@@ -74,7 +74,7 @@ TEST(RodForce, ABodyUnderItHasTheAccelerationOfTheEquationOfMotion) {
 
 TEST(RodForce, OfTheEndOfAStepIsThatOfSpringAndDamperThere) {
   // A single spring along the fork on a hand at rest, of any stiffness: implicit Euler.
-  for (const double stiffness : {1e2, 1e6, 1e12}) {
+  for (const double stiffness : {3e2, 1e6, 1e12}) {
     RodCase one = case_called("soft_6dof", 1.0);
     one.p_OE.head<2>().setZero();
     one.fork.stiffness.stretch = stiffness;
@@ -96,7 +96,7 @@ TEST(RodForce, OfTheEndOfAStepIsThatOfSpringAndDamperThere) {
 
 TEST(RodForce, WhereTheRodDoesNotReachThereIsNoneFromThenOn) {
   const RodCase one = case_called("soft_6dof", 1.0);
-  RodForce force(one, "linear", When::begin_of_step);
+  RodForce force(one, "linear", When::start_of_step);
   BodyState far = force.body().start;
   far.p_WO = one.hand[0].X.translation() - 0.1 * one.hand[0].X.linear().col(2);  // behind the handle
   const BodyState start = force.body().start;
@@ -107,7 +107,7 @@ TEST(RodForce, WhereTheRodDoesNotReachThereIsNoneFromThenOn) {
   EXPECT_EQ(force.load(0.0, 1e-3, start).force.norm(), 0.0);
 }
 
-TEST(RodEngines, EveryEngineThatIsFoundHasAForceOfBeginAndEndOfTheStep) {
+TEST(RodEngines, EveryEngineThatIsFoundHasAndEndOfTheStep) {
   const Peers peers = all_peers();
   EXPECT_EQ(std::count_if(engines().begin(), engines().end(), [](const RodEngine& e) { return !is_rk4(e); }),
             2 * (static_cast<long>(peers.found.size()) - 1));  // SUNDIALS is none
@@ -148,7 +148,7 @@ TEST(RodEngines, WithoutDampersAnExplicitForceHoldsBelowTheStabilityLimitOfItsMe
   one.fork.damping_ratio = {0.0, 0.0, 0.0};
   for (motion::PoseSample& sample : one.hand) sample.X = RigidTransform::Identity();
   const double deflection = rod_reference(one, "linear").largest_deflection;
-  const Vector3d rest = RodForce(one, "linear", When::begin_of_step).body().start.p_WO;
+  const Vector3d rest = RodForce(one, "linear", When::start_of_step).body().start.p_WO;
   for (const RodEngine& engine : engines()) {
     if (engine.when == When::end_of_step) continue;
     const double limit = (is_rk4(engine) ? std::sqrt(8.0) : 2.0) / fastest_frequency(one);
@@ -174,7 +174,7 @@ TEST(RodEngines, AForceOfTheEndOfTheStepHoldsAStiffForkAtEveryStepAndAnExplicitO
         const RodRun run = run_engine(one, "linear", engine, 0.02 / steps);
         return run.finite ? largest_distance(run.X_WO, reference.X_WO).position : 1e300;
       };
-      if (engine.when == When::begin_of_step) {
+      if (engine.when == When::start_of_step) {
         EXPECT_EQ(error(4), 1e300) << engine.name << ' ' << name;
         continue;
       }
