@@ -75,6 +75,7 @@ Wrench RodForce::load(double t, double h, const BodyState& body) {
   const Vector6d start = q_ + (t - t_) * q_dot_;
   const rod::TipFit<double> fit(held_.shape(), H_E.R_AB, H_E.p_AB, H_E.v_AB, H_E.w_AB, start.data());
   lost_ = !reaches(fit, H_E, held_.shape().length());
+  if (lost_) return {};
   q_ = Eigen::Map<const Vector6d>(fit.q);
   q_dot_ = Eigen::Map<const Vector6d>(fit.q_dot);
   t_ = t;
@@ -112,7 +113,7 @@ RodRun run_engine(const RodCase& one, const std::string& shape, const RodEngine&
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const double from = ends[i - 1], span = ends[i] - from;
     const int count = static_cast<int>(std::ceil(span / step * (1.0 - 1e-9)));
-    for (int j = 0; j < count; ++j) body->step(from + j * (span / count), span / count);
+    for (int j = 0; j < count && !force.lost(); ++j) body->step(from + j * (span / count), span / count);
     run.steps += count;
     if (ends[i] > times[run.X_WO.size()] - kSameTime && !keep_pose()) return run;
   }
