@@ -265,7 +265,7 @@ std::vector<RodEngine> mujoco_rods() {
     };
   };
   return {{"mujoco_euler", RodForce::When::start_of_step, made_with(mjINT_EULER)},
-          {"mujoco_rk4", RodForce::When::start_of_step, made_with(mjINT_RK4)},
+          {"mujoco_rk4", RodForce::When::each_stage, made_with(mjINT_RK4)},
           {"mujoco_stable", RodForce::When::end_of_step, made_with(mjINT_EULER)}};
 }
 

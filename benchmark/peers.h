@@ -35,7 +35,7 @@ std::vector<MethodPtr> ode_peers();
 /// DART: implicit joint springs on a driven hand.
 std::vector<MethodPtr> dart_peers();
 
-/// The engines with the rod's law as a force (RodForce), of the start and of the end of the step; MuJoCo by its Euler
+/// The engines with the rod's law as a force of the start and of the end of the step (RodForce); MuJoCo by its Euler
 /// method and, with the force of each stage, by Runge–Kutta.
 std::vector<RodEngine> bullet_rods();
 std::vector<RodEngine> mujoco_rods();

@@ -60,9 +60,13 @@ FreeBody RodForce::body() const {
           {O.X.translation(), Quaterniond(O.X.linear()), O.velocity.linear, w_WO_O}};
 }
 
-const motion::OwnAxesMotion& RodForce::hand(double t) {
-  if (t != t_) hand_ = samples_.handle(t).in_own_axes(t);
-  return hand_;
+void RodForce::move_hand(double t) {
+  if (t == t_) return;
+  const RigidTransform before = hand_.X;
+  hand_ = samples_.handle(t).in_own_axes(t);
+  if (when_ == When::each_stage) return;
+  hand_.v_W = (hand_.X.translation() - before.translation()) / (t - t_);
+  hand_.w_B = math::log_so3(before.linear().transpose() * hand_.X.linear()) / (t - t_);
 }
 
 Wrench RodForce::load(double t, double h, const BodyState& body) {
@@ -71,7 +75,8 @@ Wrench RodForce::load(double t, double h, const BodyState& body) {
   if (ahead) t += h;
   const Vector3d& p_OE = held_.body().X_OE.translation();
   const motion::MotionState tip = tip_of(ahead ? flown(held_, body, h) : body, p_OE);
-  const dynamics::RelativeMotion<double> H_E = dynamics::relative_motion(hand(t), tip);
+  move_hand(t);
+  const dynamics::RelativeMotion<double> H_E = dynamics::relative_motion(hand_, tip);
   const Vector6d start = q_ + (t - t_) * q_dot_;
   const rod::TipFit<double> fit(held_.shape(), H_E.R_AB, H_E.p_AB, H_E.v_AB, H_E.w_AB, start.data());
   lost_ = !reaches(fit, H_E, held_.shape().length());

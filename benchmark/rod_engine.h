@@ -16,11 +16,12 @@ namespace spring_workbench::benchmark {
 /// rate, then springs and dampers.
 class RodForce {
  public:
-  /// Whose pose and velocity the law is given, in a step of an engine.
+  /// Of what moment of an engine's step the force is. In steps of semi-implicit Euler a velocity is the mean over a
+  /// step, so the hand's is that of the poses at the ends of the same step (which Bullet makes for its bodies, too).
   enum class When {
-    /// Those at the start of the step: an explicit force. At long steps the engine is unstable.
-    start_of_step,
-    /// Those at its end, as far as a step of semi-implicit Euler and a linearisation of the law predict them: stable PD
+    start_of_step,  ///< An explicit force. At long steps the engine is unstable.
+    each_stage,     ///< The same in a Runge–Kutta method, with the hand's own velocity.
+    /// That of the end, as far as a step of semi-implicit Euler and a linearisation of the law predict them: stable PD
     /// control (Tan, Liu and Turk, Stable proportional-derivative controllers, IEEE Computer Graphics and Applications
     /// 31(4), 2011), which users of these engines have for stiff springs that are forces. No engine takes a stiffness
     /// of 6 × 6 itself: Bullet's and ODE's constraints have one for each axis, DART's joints one for each coordinate,
@@ -40,15 +41,15 @@ class RodForce {
   bool lost() const { return lost_; }
 
  private:
-  const motion::OwnAxesMotion& hand(double t);
+  void move_hand(double t);
 
   dynamics::HeldBody held_;
   Matrix6d stiffness_, damping_;
   SampledHand samples_;
   When when_;
-  double t_ = 0.0;  ///< time of the last load [s]
-  motion::OwnAxesMotion hand_;
-  Vector6d q_ = Vector6d::Zero(), q_dot_ = Vector6d::Zero();  ///< strain then, and its rate
+  double t_ = 0.0;                                            ///< time of the last load [s]
+  motion::OwnAxesMotion hand_;                                ///< the hand then
+  Vector6d q_ = Vector6d::Zero(), q_dot_ = Vector6d::Zero();  ///< the strain then, and its rate
   bool lost_ = false;
 };
 
