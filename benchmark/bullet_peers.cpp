@@ -1,6 +1,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>
+#include <utility>
 
 #include "benchmark/held_body.h"
 #include "benchmark/peers.h"
@@ -18,21 +19,20 @@ btTransform to_bullet(const Matrix3d& R, const Vector3d& p) {
                      to_bullet(p));
 }
 
-/// A Bullet world that contains only the held object, at the start of the scene.
+/// A Bullet world that contains only the held object.
 class BulletWorld {
  public:
-  explicit BulletWorld(const Scenario& scene)
+  explicit BulletWorld(const FreeBody& body)
       : dispatcher_(&configuration_),
         world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
         shape_(btVector3(0.1, 0.05, 0.025)),
-        object_(scene.mass, nullptr, &shape_, to_bullet(scene.inertia)) {
-    world_.setGravity(btVector3(0.0, 0.0, -scene.gravity));
-    const BodyState start = start_state(scene);
-    const Matrix3d R = start.R_WO.toRotationMatrix();
-    object_.setCenterOfMassTransform(to_bullet(R, start.p_WO));
+        object_(body.mass, nullptr, &shape_, to_bullet(body.inertia)) {
+    world_.setGravity(btVector3(0.0, 0.0, -body.gravity));
+    const Matrix3d R = body.start.R_WO.toRotationMatrix();
+    object_.setCenterOfMassTransform(to_bullet(R, body.start.p_WO));
     object_.setInterpolationWorldTransform(object_.getCenterOfMassTransform());
-    object_.setLinearVelocity(to_bullet(start.v_WO_W));
-    object_.setAngularVelocity(to_bullet(R * start.w_WO_O));
+    object_.setLinearVelocity(to_bullet(body.start.v_WO_W));
+    object_.setAngularVelocity(to_bullet(R * body.start.w_WO_O));
     object_.setActivationState(DISABLE_DEACTIVATION);
     add(object_);
   }
@@ -89,7 +89,7 @@ class BulletExplicit : public Method {
   std::string name() const override { return "bullet_explicit"; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    BulletWorld world(scene);
+    BulletWorld world(free_body(scene));
     const SingleSpring spring(scene);
     btRigidBody& object = world.object();
     const auto push = [&](double t) {
@@ -107,8 +107,6 @@ class BulletExplicit : public Method {
         object.applyTorque(to_bullet(body.R_WO * load.moment_O));
       }
     };
-    // The torsion spring does not carry the weight: no gravity in scene B.
-    if (scene.kind == SceneKind::torsion) object.setGravity(btVector3(0.0, 0.0, 0.0));
     return stepping_loop(
         scene, step,
         [&](double t, double h) {
@@ -128,7 +126,7 @@ class BulletSpring2 : public Method {
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    BulletWorld world(scene);
+    BulletWorld world(free_body(scene));
     btSphereShape hand_shape(0.01);
     btRigidBody hand(0.0, nullptr, &hand_shape);
     hand.setCollisionFlags(hand.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -139,7 +137,6 @@ class BulletSpring2 : public Method {
     };
     btTransform next = hand_transform(0.0);
     world.add(hand);
-    if (scene.kind == SceneKind::torsion) world.object().setGravity(btVector3(0.0, 0.0, 0.0));
 
     btGeneric6DofSpring2Constraint coupling(hand, world.object(), btTransform::getIdentity(),
                                             to_bullet(Matrix3d::Identity(), -scene.p_EO));
@@ -170,7 +167,32 @@ class BulletSpring2 : public Method {
   bool limited_;
 };
 
+class BulletBody final : public BodyEngine {
+ public:
+  BulletBody(const FreeBody& body, LoadLaw load) : world_(body), load_(std::move(load)) {}
+
+  void step(double t, double h) override {
+    const Wrench load = load_(t, h, state());
+    world_.object().applyCentralForce(to_bullet(load.force));
+    world_.object().applyTorque(to_bullet(load.moment));
+    world_.step(h);
+  }
+  BodyState state() const override { return world_.object_state(); }
+
+ private:
+  BulletWorld world_;
+  LoadLaw load_;
+};
+
 }  // namespace
+
+std::vector<RodEngine> bullet_rods() {
+  const auto make = [](const FreeBody& body, LoadLaw load) {
+    return std::make_unique<BulletBody>(body, std::move(load));
+  };
+  return {{"bullet_explicit", RodForce::When::start_of_step, make},
+          {"bullet_stable", RodForce::When::end_of_step, make}};
+}
 
 std::vector<MethodPtr> bullet_peers() {
   std::vector<MethodPtr> peers;

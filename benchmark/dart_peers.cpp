@@ -6,6 +6,7 @@
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/dynamics/TranslationalJoint.hpp>
 #include <dart/simulation/World.hpp>
+#include <utility>
 
 #include "benchmark/held_body.h"
 #include "benchmark/peers.h"
@@ -137,7 +138,53 @@ class DartJointSprings : public Method {
   }
 };
 
+class DartBody final : public BodyEngine {
+ public:
+  DartBody(const FreeBody& body, LoadLaw load) : load_(std::move(load)) {
+    const SkeletonPtr skeleton = Skeleton::create("object");
+    const auto [joint, object] = skeleton->createJointAndBodyNodePair<dart::dynamics::FreeJoint>();
+    object_ = object;
+    Inertia inertia;
+    inertia.setMass(body.mass);
+    inertia.setMoment(body.inertia.asDiagonal().toDenseMatrix());
+    object->setInertia(inertia);
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.linear() = body.start.R_WO.toRotationMatrix();
+    X_WO.translation() = body.start.p_WO;
+    joint->setTransform(X_WO);
+    joint->setLinearVelocity(body.start.v_WO_W);
+    joint->setAngularVelocity(body.start.R_WO * body.start.w_WO_O);
+    world_->setGravity(Vector3d(0.0, 0.0, -body.gravity));
+    world_->addSkeleton(skeleton);
+  }
+
+  void step(double t, double h) override {
+    const Wrench load = load_(t, h, state());
+    object_->addExtForce(load.force, Vector3d::Zero(), false);
+    object_->addExtTorque(load.moment, false);
+    world_->setTimeStep(h);
+    world_->step();
+  }
+  BodyState state() const override {
+    const Eigen::Isometry3d& X_WO = object_->getWorldTransform();
+    return {X_WO.translation(), Quaterniond(X_WO.linear()), object_->getLinearVelocity(),
+            X_WO.linear().transpose() * object_->getAngularVelocity()};
+  }
+
+ private:
+  LoadLaw load_;
+  BodyNode* object_;
+  dart::simulation::WorldPtr world_ = dart::simulation::World::create();
+};
+
 }  // namespace
+
+std::vector<RodEngine> dart_rods() {
+  const auto make = [](const FreeBody& body, LoadLaw load) {
+    return std::make_unique<DartBody>(body, std::move(load));
+  };
+  return {{"dart_explicit", RodForce::When::start_of_step, make}, {"dart_stable", RodForce::When::end_of_step, make}};
+}
 
 std::vector<MethodPtr> dart_peers() {
   std::vector<MethodPtr> peers;

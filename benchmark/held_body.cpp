@@ -87,6 +87,11 @@ Vector6d bushing_acceleration(const Scenario& scene, const HandMotion& motion, c
 
 BodyState start_state(const Scenario& scene) { return body_state(scene, hand_state(scene, 0.0), BushingState()); }
 
+FreeBody free_body(const Scenario& scene) {
+  const double gravity = scene.kind == SceneKind::torsion ? 0.0 : scene.gravity;
+  return {scene.mass, scene.inertia, gravity, start_state(scene)};
+}
+
 Vector3d rigid_output(const Scenario& scene, double t) {
   if (scene.kind == SceneKind::torsion) return Vector3d(0.0, 0.0, scalar_hand(scene, t).value);
   const HandState hand = hand_state(scene, t);

@@ -50,6 +50,16 @@ BodyAcceleration body_acceleration(const Scenario& scene, const BodyLoad& load, 
 /// The object at t = 0: zero strain, zero strain rate.
 BodyState start_state(const Scenario& scene);
 
+/// A rigid body as it is put into an engine, free but for gravity along −z of W and loads.
+struct FreeBody {
+  double mass = 1.0;                    ///< [kg]
+  Vector3d inertia = Vector3d::Ones();  ///< principal, about and in O [kg m²]
+  double gravity = 9.81;                ///< [m/s²]
+  BodyState start;
+};
+/// The object of a scene. The torsion spring does not carry the weight: no gravity in scene B.
+FreeBody free_body(const Scenario& scene);
+
 /// Output for a rigid fork: A and C centre of the object [m], B (0, 0, twist) [rad].
 Vector3d rigid_output(const Scenario& scene, double t);
 

@@ -24,10 +24,7 @@ std::string inertial(double mass, const Vector3d& inertia, const Vector3d& p) {
   return out.str();
 }
 
-std::string document(const Scenario& scene, const std::string& disabled, const std::string& world,
-                     const std::string& rest) {
-  // Scene B turns about the vertical, so weight has no effect.
-  const double gravity = scene.kind == SceneKind::torsion ? 0.0 : scene.gravity;
+std::string document(double gravity, const std::string& disabled, const std::string& world, const std::string& rest) {
   return "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" boundmass=\"0\" boundinertia=\"0\"/>"
          "<option gravity=" +
          vector(Vector3d(0.0, 0.0, -gravity)) + "><flag contact=\"disable\" " + disabled + "/></option><worldbody>" +
@@ -44,14 +41,18 @@ std::string spring_joint(const Scenario& scene, int coordinate) {
   return out.str();
 }
 
+std::string object_model(const FreeBody& body, const std::string& joint) {
+  return document(body.gravity, "constraint=\"disable\"",
+                  "<body>" + joint + inertial(body.mass, body.inertia, Vector3d::Zero()) + "</body>", "");
+}
+
 }  // namespace
 
+std::string mujoco_free_body_model(const FreeBody& body) { return object_model(body, "<freejoint/>"); }
+
 std::string mujoco_object_model(const Scenario& scene) {
-  const std::string joint = scene.kind == SceneKind::six_dof
-                                ? "<freejoint/>"
-                                : std::string("<joint type=\"") + single_joint(scene) + "\" axis=\"0 0 1\"/>";
-  return document(scene, "constraint=\"disable\"",
-                  "<body>" + joint + inertial(scene.mass, scene.inertia, Vector3d::Zero()) + "</body>", "");
+  if (scene.kind == SceneKind::six_dof) return mujoco_free_body_model(free_body(scene));
+  return object_model(free_body(scene), std::string("<joint type=\"") + single_joint(scene) + "\" axis=\"0 0 1\"/>");
 }
 
 std::string mujoco_joint_model(const Scenario& scene) {
@@ -66,12 +67,12 @@ std::string mujoco_joint_model(const Scenario& scene) {
     springs = spring_joint(scene, scene.single_coordinate());
   }
   return document(
-      scene, "constraint=\"disable\"",
+      free_body(scene).gravity, "constraint=\"disable\"",
       "<body>" + hand + "<body>" + springs + inertial(scene.mass, scene.inertia, scene.p_EO) + "</body></body>", "");
 }
 
 std::string mujoco_weld_model(const Scenario& scene) {
-  return document(scene, "refsafe=\"disable\"",
+  return document(free_body(scene).gravity, "refsafe=\"disable\"",
                   "<body name=\"hand\" mocap=\"true\"/><body name=\"object\"><freejoint/>" +
                       inertial(scene.mass, scene.inertia, Vector3d::Zero()) + "</body>",
                   "<equality><weld body1=\"hand\" body2=\"object\"/></equality>");

@@ -2,13 +2,16 @@
 
 #include <string>
 
-#include "benchmark/scenarios.h"
+#include "benchmark/held_body.h"
 
 namespace spring_workbench::benchmark {
 
 /// Mass [kg], inertia [kg m²] or armature of the driven hand; the relative error of its acceleration is the ratio of
 /// the object's inertia to this.
 constexpr double kMujocoHandInertia = 1e12;
+
+/// MJCF: a body on a free joint.
+std::string mujoco_free_body_model(const FreeBody& body);
 
 /// MJCF: the object alone, on a slide (A), a hinge (B) or a free joint (C).
 std::string mujoco_object_model(const Scenario& scene);

@@ -14,17 +14,16 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-/// A world with the time step of a run.
-class SceneWorld {
+class SteppedWorld {
  public:
-  SceneWorld(const std::string& xml, const Scenario& scene, double step) : world_(xml) {
-    model().opt.timestep = step_length(scene, step);
-  }
+  explicit SteppedWorld(const std::string& xml) : world_(xml) {}
 
   mjModel& model() { return *world_.model; }
   mjData& data() { return *world_.data; }
-  /// One step from time `t`, which is set because MuJoCo's own sum accumulates rounding errors.
-  void step(double t) {
+  const mjData& data() const { return *world_.data; }
+  /// One step of `h` from time `t`, which is set because MuJoCo's own sum accumulates rounding errors.
+  void step(double t, double h) {
+    model().opt.timestep = h;
     data().time = t;
     mj_step(&model(), &data());
   }
@@ -77,7 +76,7 @@ class MujocoForce : public Method {
   std::string name() const override { return integrator_ == mjINT_RK4 ? "mujoco_rk4" : "mujoco_euler"; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    SceneWorld world(mujoco_object_model(scene), scene, step);
+    SteppedWorld world(mujoco_object_model(scene));
     world.model().opt.integrator = integrator_;
     write_start(scene, world.data());
     const SingleSpring spring(scene);
@@ -86,7 +85,7 @@ class MujocoForce : public Method {
     hand_ = {};
     mjcb_passive = scene.kind == SceneKind::six_dof ? &push_body : &push_single;
     RunResult result = stepping_loop(
-        scene, step, [&](double t, double) { world.step(t); },
+        scene, step, [&](double t, double h) { world.step(t, h); },
         [&](double) -> Vector3d {
           const mjData& data = world.data();
           if (world.was_reset()) return not_a_result();
@@ -128,14 +127,14 @@ class MujocoJoints : public Method {
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    SceneWorld world(mujoco_joint_model(scene), scene, step);
+    SteppedWorld world(mujoco_joint_model(scene));
     world.model().opt.integrator = integrator_;
     mjData& data = world.data();
     return stepping_loop(
         scene, step,
-        [&](double t, double) {
+        [&](double t, double h) {
           drive_hand(scene, t, data);
-          world.step(t);
+          world.step(t, h);
         },
         [&](double t) { return world.was_reset() ? not_a_result() : output(scene, t, data); });
   }
@@ -180,19 +179,19 @@ class MujocoWeld : public Method {
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    SceneWorld world(mujoco_weld_model(scene), scene, step);
+    SteppedWorld world(mujoco_weld_model(scene));
     mjData& data = world.data();
     const BodyState start = start_state(scene);
     write_free_joint(start.p_WO, start.R_WO.toRotationMatrix(), start.v_WO_W, start.w_WO_O, data.qpos, data.qvel);
     set_coupling(scene, world.model());
     return stepping_loop(
         scene, step,
-        [&](double t, double) {
+        [&](double t, double h) {
           const HandState hand = hand_state(scene, t);
           const Quaterniond q(hand.R_WT);
           Eigen::Map<Vector3d>{data.mocap_pos} = hand.p_WT;
           Eigen::Map<Eigen::Vector4d>{data.mocap_quat} = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
-          world.step(t);
+          world.step(t, h);
         },
         [&](double) -> Vector3d {
           if (world.was_reset()) return not_a_result();
@@ -219,7 +218,56 @@ class MujocoWeld : public Method {
   }
 };
 
+/// Its load is a passive force in MuJoCo's callback, as above.
+class MujocoBody final : public BodyEngine {
+ public:
+  MujocoBody(mjtIntegrator integrator, const FreeBody& body, LoadLaw load)
+      : world_(mujoco_free_body_model(body)), load_(std::move(load)) {
+    world_.model().opt.integrator = integrator;
+    const BodyState& start = body.start;
+    write_free_joint(start.p_WO, start.R_WO.toRotationMatrix(), start.v_WO_W, start.w_WO_O, world_.data().qpos,
+                     world_.data().qvel);
+    current_ = this;
+    mjcb_passive = &push;
+  }
+  ~MujocoBody() override { mjcb_passive = nullptr; }
+  MujocoBody(const MujocoBody&) = delete;
+  MujocoBody& operator=(const MujocoBody&) = delete;
+
+  void step(double t, double h) override { world_.step(t, h); }
+  BodyState state() const override {
+    BodyState state = read_free_joint(world_.data());
+    if (world_.was_reset()) state.p_WO = not_a_result();
+    return state;
+  }
+
+ private:
+  static void push(const mjModel* model, mjData* data) {
+    const BodyState body = read_free_joint(*data);
+    const Wrench load = current_->load_(data->time, model->opt.timestep, body);
+    Eigen::Map<Vector3d>{data->qfrc_passive} += load.force;
+    Eigen::Map<Vector3d>{data->qfrc_passive + 3} += body.R_WO.conjugate() * load.moment;
+  }
+
+  static MujocoBody* current_;
+  SteppedWorld world_;
+  LoadLaw load_;
+};
+
+MujocoBody* MujocoBody::current_ = nullptr;
+
 }  // namespace
+
+std::vector<RodEngine> mujoco_rods() {
+  const auto made_with = [](mjtIntegrator integrator) {
+    return [integrator](const FreeBody& body, LoadLaw load) {
+      return std::make_unique<MujocoBody>(integrator, body, std::move(load));
+    };
+  };
+  return {{"mujoco_euler", RodForce::When::start_of_step, made_with(mjINT_EULER)},
+          {"mujoco_rk4", RodForce::When::each_stage, made_with(mjINT_RK4)},
+          {"mujoco_stable", RodForce::When::end_of_step, made_with(mjINT_EULER)}};
+}
 
 std::vector<MethodPtr> mujoco_peers() {
   std::vector<MethodPtr> peers;

@@ -1,6 +1,7 @@
 #include <ode/ode.h>
 
 #include <cmath>
+#include <utility>
 
 #include "benchmark/held_body.h"
 #include "benchmark/peers.h"
@@ -25,6 +26,22 @@ Matrix3d rotation(dBodyID body) {
 
 Vector3d position(dBodyID body) { return Eigen::Map<const Vector3d>(dBodyGetPosition(body)); }
 
+/// Sets the gravity of a world, and puts a body into it.
+dBodyID add_body(const FreeBody& body, dWorldID world) {
+  dWorldSetGravity(world, 0.0, 0.0, -body.gravity);
+  const dBodyID object = dBodyCreate(world);
+  dMass mass;
+  dMassSetParameters(&mass, body.mass, 0, 0, 0, body.inertia.x(), body.inertia.y(), body.inertia.z(), 0, 0, 0);
+  dBodySetMass(object, &mass);
+  const Matrix3d R = body.start.R_WO.toRotationMatrix();
+  const Vector3d &p = body.start.p_WO, &v = body.start.v_WO_W, w = R * body.start.w_WO_O;
+  dBodySetPosition(object, p.x(), p.y(), p.z());
+  set_rotation(object, R);
+  dBodySetLinearVel(object, v.x(), v.y(), v.z());
+  dBodySetAngularVel(object, w.x(), w.y(), w.z());
+  return object;
+}
+
 /// The object on a kinematic hand by a linear and an angular motor, whose rows are implicit spring-dampers: ODE's
 /// ERP = h k / (h k + c) and CFM = 1 / (h k + c), as target velocity −(ERP/h) x and CFM per axis.
 ///
@@ -37,19 +54,8 @@ class OdeWorld {
         next_(hand_state(scene, 0.0)),
         world_(dWorldCreate()),
         hand_(dBodyCreate(world_)),
-        object_(dBodyCreate(world_)) {
-    dWorldSetGravity(world_, 0.0, 0.0, scene.kind == SceneKind::torsion ? 0.0 : -scene.gravity);
-    dMass mass;
-    dMassSetParameters(&mass, scene.mass, 0, 0, 0, scene.inertia.x(), scene.inertia.y(), scene.inertia.z(), 0, 0, 0);
-    dBodySetMass(object_, &mass);
+        object_(add_body(free_body(scene), world_)) {
     dBodySetKinematic(hand_);
-    const BodyState start = start_state(scene);
-    const Matrix3d R = start.R_WO.toRotationMatrix();
-    const Vector3d w = R * start.w_WO_O;
-    dBodySetPosition(object_, start.p_WO.x(), start.p_WO.y(), start.p_WO.z());
-    set_rotation(object_, R);
-    dBodySetLinearVel(object_, start.v_WO_W.x(), start.v_WO_W.y(), start.v_WO_W.z());
-    dBodySetAngularVel(object_, w.x(), w.y(), w.z());
     set_rotation(hand_, next_.R_WT);
     add_motor(dJointCreateLMotor(world_, nullptr), 0, dJointSetLMotorParam, linear_);
     add_motor(dJointCreateAMotor(world_, nullptr), 3, dJointSetAMotorParam, angular_);
@@ -153,7 +159,45 @@ class OdeErpCfm : public Method {
   }
 };
 
+class OdeBody final : public BodyEngine {
+ public:
+  OdeBody(const FreeBody& body, LoadLaw load) : load_(std::move(load)) {
+    dInitODE2(0);
+    world_ = dWorldCreate();
+    object_ = add_body(body, world_);
+  }
+  ~OdeBody() override {
+    dWorldDestroy(world_);
+    dCloseODE();
+  }
+  OdeBody(const OdeBody&) = delete;
+  OdeBody& operator=(const OdeBody&) = delete;
+
+  void step(double t, double h) override {
+    const Wrench load = load_(t, h, state());
+    dBodyAddForce(object_, load.force.x(), load.force.y(), load.force.z());
+    dBodyAddTorque(object_, load.moment.x(), load.moment.y(), load.moment.z());
+    dWorldStep(world_, h);
+  }
+  BodyState state() const override {
+    const dReal* q = dBodyGetQuaternion(object_);
+    const Quaterniond R_WO(q[0], q[1], q[2], q[3]);
+    const Vector3d w = Eigen::Map<const Vector3d>(dBodyGetAngularVel(object_));
+    return {position(object_), R_WO, Eigen::Map<const Vector3d>(dBodyGetLinearVel(object_)), R_WO.conjugate() * w};
+  }
+
+ private:
+  LoadLaw load_;
+  dWorldID world_;
+  dBodyID object_;
+};
+
 }  // namespace
+
+std::vector<RodEngine> ode_rods() {
+  const auto make = [](const FreeBody& body, LoadLaw load) { return std::make_unique<OdeBody>(body, std::move(load)); };
+  return {{"ode_explicit", RodForce::When::start_of_step, make}, {"ode_stable", RodForce::When::end_of_step, make}};
+}
 
 std::vector<MethodPtr> ode_peers() {
   std::vector<MethodPtr> peers;

@@ -5,16 +5,9 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-void append(std::vector<MethodPtr> more, std::vector<MethodPtr>& methods) {
-  methods.insert(methods.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
-[[maybe_unused]] void append(const std::vector<DragMethod>& more, std::vector<DragMethod>& drags) {
-  drags.insert(drags.end(), more.begin(), more.end());
-}
-
-[[maybe_unused]] void append(const std::vector<BoxEngine>& more, std::vector<BoxEngine>& boxes) {
-  boxes.insert(boxes.end(), more.begin(), more.end());
+template <typename Peer>
+void append(std::vector<Peer> more, std::vector<Peer>& peers) {
+  peers.insert(peers.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 }  // namespace
@@ -27,6 +20,7 @@ Peers all_peers() {
   peers.found.push_back("CVODE and ARKODE " SPRING_WORKBENCH_CVODE_VERSION);
 #ifdef SPRING_WORKBENCH_BULLET_VERSION
   append(bullet_peers(), peers.methods);
+  append(bullet_rods(), peers.rods);
   append(bullet_drags(), peers.drags);
   append(bullet_boxes(), peers.boxes);
   peers.found.push_back("Bullet " SPRING_WORKBENCH_BULLET_VERSION);
@@ -35,6 +29,7 @@ Peers all_peers() {
 #endif
 #ifdef SPRING_WORKBENCH_MUJOCO_VERSION
   append(mujoco_peers(), peers.methods);
+  append(mujoco_rods(), peers.rods);
   append(mujoco_drags(), peers.drags);
   append(mujoco_boxes(), peers.boxes);
   peers.found.push_back("MuJoCo " SPRING_WORKBENCH_MUJOCO_VERSION);
@@ -43,6 +38,7 @@ Peers all_peers() {
 #endif
 #ifdef SPRING_WORKBENCH_ODE_VERSION
   append(ode_peers(), peers.methods);
+  append(ode_rods(), peers.rods);
   append(ode_drags(), peers.drags);
   append(ode_boxes(), peers.boxes);
   peers.found.push_back("ODE " SPRING_WORKBENCH_ODE_VERSION);
@@ -51,6 +47,7 @@ Peers all_peers() {
 #endif
 #ifdef SPRING_WORKBENCH_DART_VERSION
   append(dart_peers(), peers.methods);
+  append(dart_rods(), peers.rods);
   append(dart_drags(), peers.drags);
   peers.found.push_back("DART " SPRING_WORKBENCH_DART_VERSION);
 #else

@@ -6,6 +6,7 @@
 #include "benchmark/contact/box_engines.h"
 #include "benchmark/contact/drag.h"
 #include "benchmark/method.h"
+#include "benchmark/rod_engine.h"
 
 namespace spring_workbench::benchmark {
 
@@ -34,9 +35,17 @@ std::vector<MethodPtr> ode_peers();
 /// DART: implicit joint springs on a driven hand.
 std::vector<MethodPtr> dart_peers();
 
+/// The engines with the rod's law as a force of the start and of the end of the step (RodForce); MuJoCo by its Euler
+/// method and, with the force of each stage, by Runge–Kutta.
+std::vector<RodEngine> bullet_rods();
+std::vector<RodEngine> mujoco_rods();
+std::vector<RodEngine> ode_rods();
+std::vector<RodEngine> dart_rods();
+
 /// The peers that were found at configuration time, and those that were not.
 struct Peers {
   std::vector<MethodPtr> methods;
+  std::vector<RodEngine> rods;         ///< the engines on rods
   std::vector<DragMethod> drags;       ///< the engines on the drag scene
   std::vector<BoxEngine> boxes;        ///< the engines on piles and stacks of boxes
   std::vector<std::string> found;      ///< engine and version

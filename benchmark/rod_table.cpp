@@ -136,21 +136,23 @@ bool samples_are_rare(const RodCase& one) {
   return interval > 1.5 * one.output_interval;
 }
 
-/// Measures one of our integrators on a case, first by step and then by tolerance, or a general method, setting by
-/// setting.
+/// Measures one of our integrators on a case, first by step and then by tolerance, or a general method or an engine,
+/// setting by setting.
 class Line {
  public:
+  /// `engine`: the one named `method`, or null.
   Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& exact,
-       const std::string& method, bool ours)
-      : plan_(plan), case_(one), shape_(shape), method_(method), ours_(ours) {
+       const std::string& method, bool ours, const RodEngine* engine = nullptr)
+      : plan_(plan), case_(one), shape_(shape), method_(method), ours_(ours), engine_(engine) {
     own_ = ours && !solves_the_equation_of_motion(method);
     reference_ = own_ ? own_limit(one, shape, method, exact) : exact;
     model_error_ = largest_distance(reference_.X_WO, exact.X_WO).position;
-    if (ours || takes_step(method)) {
+    const bool by_step = engine != nullptr || takes_step(method);
+    if (ours || by_step) {
       for (const int n : plan.steps_per_output) settings_.push_back({kOutputInterval / n, 0.0});
     }
     for (const double tolerance : ours ? plan.tolerances : std::vector<double>{}) settings_.push_back({0.0, tolerance});
-    if (ours || takes_step(method)) return;
+    if (ours || by_step) return;
     for (const double tolerance : plan.peer_tolerances) settings_.push_back({0.0, tolerance});
   }
 
@@ -180,6 +182,7 @@ class Line {
   };
 
   RodRun run(const RodCase& one, const Setting& setting) const {
+    if (engine_ != nullptr) return run_engine(one, shape_, *engine_, setting.step);
     if (!ours_) {
       return run_solver(one, shape_, method_, setting.step > 0.0 ? setting.step : setting.tolerance,
                         samples_are_rare(case_) && gains_from_long_steps(method_) ? StepEnds::samples
@@ -248,9 +251,8 @@ class Line {
   PoseDistance distance_between(const Setting& setting) const {
     if (is_ours_to_tolerance(setting)) return {};
     const RodCase halfway = with_halfway_outputs(case_);
-    const RodRun between = setting.step > 0.0
-                               ? run(halfway, setting)
-                               : run_in_time(plan_.tolerance_time_limit, [&] { return run(halfway, setting); });
+    const RodRun between =
+        ours_ ? run(halfway, setting) : run_in_time(plan_.tolerance_time_limit, [&] { return run(halfway, setting); });
     constexpr double none = std::numeric_limits<double>::infinity();
     return between.finite ? largest_distance(between.X_WO, reference_.halfway) : PoseDistance{none, none};
   }
@@ -260,6 +262,7 @@ class Line {
   const std::string& shape_;
   std::string method_;
   bool ours_;
+  const RodEngine* engine_;
   RodReference reference_;    ///< the reference for errors
   bool own_ = false;          ///< whether that is the method's own limit
   double model_error_ = 0.0;  ///< distance of that limit from the exact solution [m]
@@ -275,13 +278,16 @@ std::size_t unit_count(const RodTablePlan& plan) { return 2 * pairs_of(plan.case
 namespace {
 
 /// The curves of all methods for a case and shape.
-std::vector<Line> lines_of(const RodTablePlan& plan, const RodCase& one, const std::string& shape) {
+std::vector<Line> lines_of(const RodTablePlan& plan, const std::vector<RodEngine>& engines, const RodCase& one,
+                           const std::string& shape) {
   const RodReference reference = rod_reference(one, shape);
   std::vector<Line> lines;
   for (const std::string& integrator : validation::names<dynamics::IntegratorKind>())
     lines.emplace_back(plan, one, shape, reference, integrator, true);
   if (!has_peers(one, shape)) return lines;
   for (const std::string& solver : solver_names()) lines.emplace_back(plan, one, shape, reference, solver, false);
+  if (!RodForce::can_push(one, shape)) return lines;
+  for (const RodEngine& engine : engines) lines.emplace_back(plan, one, shape, reference, engine.name, false, &engine);
   return lines;
 }
 
@@ -303,7 +309,7 @@ std::vector<ErrorRow> timed_again(const std::vector<Line>& lines, std::vector<Er
 
 }  // namespace
 
-std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
+std::vector<ErrorRow> rod_table(const RodTablePlan& plan, const std::vector<RodEngine>& engines, Units& units) {
   units.begin("rods");
   const auto pairs = pairs_of(plan.cases);
   std::vector<std::vector<Line>> lines(pairs.size());
@@ -311,7 +317,7 @@ std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
   const auto name = [&](std::size_t i) { return pairs[i].first->name + ' ' + pairs[i].second; };
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     first[i] = units.rows<ErrorRow>(i, name(i), [&, i] {
-      lines[i] = lines_of(plan, *pairs[i].first, pairs[i].second);
+      lines[i] = lines_of(plan, engines, *pairs[i].first, pairs[i].second);
       return rows_of(lines[i]);
     });
   }

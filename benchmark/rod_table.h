@@ -4,6 +4,7 @@
 
 #include "benchmark/error_table.h"
 #include "benchmark/rod_case.h"
+#include "benchmark/rod_engine.h"
 
 namespace spring_workbench::benchmark {
 
@@ -22,10 +23,11 @@ struct RodTablePlan {
 RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
 
 /// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand()
-/// "samples"; with the default shape general methods beside them. The units of work of a case and shape, its reference,
-/// its rows and their run times once more, are one shard's, and its methods take turns, as in error_table().
+/// "samples"; with the default shape general methods beside them and, if no degree of freedom is off
+/// (RodForce::can_push), engines. The units of work of a case and shape, its reference, its rows and their run times
+/// once more, are one shard's, and its methods take turns, as in error_table().
 std::size_t unit_count(const RodTablePlan& plan);
-std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units);
+std::vector<ErrorRow> rod_table(const RodTablePlan& plan, const std::vector<RodEngine>& engines, Units& units);
 
 /// The error that a tolerance refers to, from position and angle times the body's radius of gyration [m].
 double error_as_length(const RodCase& one, double position, double angle);

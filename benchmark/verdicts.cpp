@@ -195,17 +195,23 @@ const std::vector<ErrorTarget>& targets() {
   return all;
 }
 
+/// Whether a fork is stiff, itself or for its load: the motion depends on stiffness over mass.
+bool is_stiff(const ErrorRow& row) { return row.stiffness_factor * std::max(1.0, 5.0 / row.mass) >= 100.0; }
+
+/// By how much ours should be faster than the best engine.
+void against_engines(const SceneRows& scene, const ErrorTarget& target, std::vector<Verdict>& out) {
+  out.push_back(against(scene, target, "the best engine", is_engine, is_stiff(scene.rows[0]) ? 50.0 : 20.0));
+}
+
 void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {
   const ErrorRow& first = scene.rows[0];
   const bool sampled = first.hand == "samples";
   for (const ErrorTarget& target : targets()) out.push_back(against(scene, target, "every peer", is_any, 1.0));
   if (sampled) out.push_back(at_every_error(scene, "every peer"));
   if (first.scene != "C") return;
-  // Stiff itself, or for its load: the motion depends on stiffness over mass.
-  const bool stiff = first.stiffness_factor * std::max(1.0, 5.0 / first.mass) >= 100.0;
   for (const ErrorTarget& target : {targets()[0], targets()[1]}) {
-    out.push_back(against(scene, target, "the best engine", is_engine, stiff ? 50.0 : 20.0));
-    out.push_back(against(scene, target, "CVODE in any form", is_cvode, stiff ? 20.0 : 2.0));
+    against_engines(scene, target, out);
+    out.push_back(against(scene, target, "CVODE in any form", is_cvode, is_stiff(first) ? 20.0 : 2.0));
   }
 }
 
@@ -258,7 +264,7 @@ void sketch(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// Compares rods on a tracked hand with general methods, in the shapes that these were run with.
+/// Compares rods on a tracked hand with general methods and engines, in the shapes that these were run with.
 void rods_against_peers(const Measurements& m, std::vector<Verdict>& out) {
   std::set<std::pair<std::string, std::string>> with_peers;
   for (const ErrorRow& row : m.rods)
@@ -268,9 +274,11 @@ void rods_against_peers(const Measurements& m, std::vector<Verdict>& out) {
     return with_peers.count({row.scene, row.shape}) > 0 && row.error_over_tolerance == 0.0;
   });
   for (const SceneRows& rod : by_scene(rows)) {
-    for (const ErrorTarget& target : targets())
-      out.push_back(against(rod, target, "every general solver", is_any, 1.0));
-    out.push_back(at_every_error(rod, "every general solver"));
+    for (const ErrorTarget& target : targets()) out.push_back(against(rod, target, "every peer", is_any, 1.0));
+    out.push_back(at_every_error(rod, "every peer"));
+    const auto is_of_engine = [](const ErrorRow& row) { return !row.ours && is_engine(row.method); };
+    if (std::none_of(rod.rows.begin(), rod.rows.end(), is_of_engine)) continue;
+    for (const ErrorTarget& target : {targets()[0], targets()[1]}) against_engines(rod, target, out);
   }
 }
 

@@ -4,7 +4,8 @@ Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE HAND    a colum
        mass, a row per measure of error
        plot_report.py overview rod_table.csv PICTURE.png contact_drag.csv
                                                                     the default rod, soft and stiff, light and heavy,
-                                                                    beside general methods; contact beside engines
+                                                                    beside general methods and the best of the
+                                                                    engines; contact beside engines
        plot_report.py brief    rod_table.csv PICTURE.png contact_drag.csv
                                                                     the same with fewer lines, named at their ends
        plot_report.py recording recording.csv PICTURE.png           a line per integrator
@@ -151,6 +152,7 @@ def scene(table, picture, name, hand):
 
 
 SOLVERS = "solver_"  # how general methods on our equation of motion are called
+ENGINES = "best engine"  # the line of the best of all engines' points
 
 
 def power_of_ten(value):
@@ -166,15 +168,17 @@ def load_name(mass):
 
 
 def rod_lines(rows, name):
-    """Fork and load, what the samples leave open, and the lines of the default method, the general ones and the
-    paper's on a rod under a tracked hand. The paper's method does not solve the equation of motion; an upper bound of
-    its error is drawn: its error against its own limit plus that limit's."""
+    """Fork and load, what the samples leave open, and the lines of the default method, the general ones, the best of
+    the engines' and the paper's on a rod under a tracked hand. The paper's method does not solve the equation of
+    motion; an upper bound of its error is drawn: its error against its own limit plus that limit's."""
     here = [row for row in rows if row["scene"] == name and row["shape"] == "linear"]
     general = sorted({row["method"] for row in rows if row["method"].startswith(SOLVERS)})
     lines = {
         method: points([row for row in here if row["method"] == method], "error_over_largest_deflection")
         for method in [DEFAULT] + general
     }
+    of_engines = [row for row in here if row["ours"] == "0" and not row["method"].startswith(SOLVERS)]
+    lines[ENGINES] = best(sorted(points(of_engines, "error_over_largest_deflection")))
     lines[PAPER] = [
         (float(r[TIME]), (float(r["error"]) + float(r["model_error"])) / float(r["largest_deflection"]))
         for r in here
@@ -194,6 +198,7 @@ def rod_panel(axes, rows, name):
     for i, method in enumerate(method for method in lines if method.startswith(SOLVERS)):
         look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.2, markersize=5, zorder=2)
         draw_line(axes, lines[method], label=method[len(SOLVERS) :].replace("_", " "), **look)
+    draw_line(axes, lines[ENGINES], color="black", marker="X", linewidth=1.8, markersize=6, zorder=2, label=ENGINES)
     draw_line(axes, lines[PAPER], color="black", marker="*", linewidth=1.2, markersize=6, linestyle=":", label=PAPER)
     if left > 0.0:
         axes.axhline(left, color="#7f7f7f", linestyle="--", linewidth=1.2, label="left open by the samples")
@@ -267,6 +272,7 @@ BRIEF = {  # the lines of `brief` that are named: colour, the point that bears t
     "solver_cvode_bdf": ("CVODE", "#9467bd", 0, (2, 6)),
     "solver_radau": ("Radau", "#8c8c00", -1, (6, -5)),
     "solver_rk4": ("RK4", "#e07000", 0, (-28, -16)),
+    ENGINES: ("engines", "#2ca02c", -1, (4, 4)),
     "stop": ("ours: stop", OURS[0], 0, (-10, -18)),
     "dynamic": ("ours: dynamic", OURS[0], -1, (-62, -26)),
     "ode_erp_cfm": ("ODE", "#8c8c00", 0, (-2, 6)),

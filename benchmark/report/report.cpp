@@ -56,13 +56,13 @@ std::size_t units_of(const Plan& plan, const std::vector<const Method*>& methods
          contact_unit_count(drags, quick) + extreme_unit_count() + map_unit_count(quick) + 3;
 }
 
-Measurements measure(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
-                     bool quick, Units& units) {
+Measurements measure(const Plan& plan, const std::vector<const Method*>& methods, const Peers& peers, bool quick,
+                     Units& units) {
   Measurements measured;
   measured.quick = quick;
   measured.scenes = error_table(methods, plan.scenes, units);
-  measured.rods = rod_table(plan.rods, units);
-  measured.contact = measure_contact(drags, quick, units);
+  measured.rods = rod_table(plan.rods, peers.rods, units);
+  measured.contact = measure_contact(peers.drags, quick, units);
   if (!quick) measured.stability_counts = stability_table(methods, units);
   measured.map = stability_map(plan.map, units);
   measured.extremes = extremes_table(quick, units);
@@ -138,7 +138,7 @@ void make_report(const ReportOptions& options, const std::string& command, std::
 
   Progress progress(log, isatty(STDERR_FILENO) != 0, units_of(plan, methods, peers.drags, quick));
   Units units = merging ? Units(progress, std::move(part.rows)) : Units(progress, shard, options.queue);
-  Measurements measured = measure(plan, methods, peers.drags, quick, units);
+  Measurements measured = measure(plan, methods, peers, quick, units);
   progress.finish();
   if (merging && !units.kept().empty()) {
     validation::refuse("shards", "unit", units.kept().begin()->first,

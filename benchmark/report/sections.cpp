@@ -70,8 +70,9 @@ PageSection rods_section(const Measurements& measured, const Tables& tables, con
       "error of integration, against Radau IIA at 1e-12; ours are runs of Simulation, solver_… general methods on "
       "the same equation of motion; \"recorded\" cases: against the trajectories of another "
       "solver, good to 2e-9 m. Steps end at samples, but for those of CVODE unless it is restarted, and of methods "
-      "…_through. No engine was run: theirs have no spring with a rod's law, which a user would have to add as a force "
-      "(the bushing of the scenes they have).";
+      "…_through. Engines have no spring with a rod's law: where no degree of freedom is off, they move a free body "
+      "on which it is a force, that of the start of the step (in MuJoCo's RK4 of each stage) or, …_stable, that of its "
+      "end, linearised. Runs that are not finite are those in which the body has left the range of the rod.";
   section.figures.push_back(
       figure({"rods", tables.rods, "rods.png", {}, "Error against run time on the rods"}, folder));
   for (const std::string& shape : validation::names<rod::ShapeKind>()) {

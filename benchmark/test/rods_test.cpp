@@ -214,7 +214,7 @@ TEST(RodTable, WhatIsComparedIsTheLargestErrorOfPositionAngleAndHalfWay) {
   Progress progress(log, false, unit_count(plan));
   Units units(progress, Shard{});
   std::set<std::string> methods;
-  for (const ErrorRow& row : rod_table(plan, units)) {
+  for (const ErrorRow& row : rod_table(plan, {}, units)) {
     methods.insert(row.method);
     if (!row.finite) continue;
     EXPECT_EQ(row.error, std::max({row.position_error, row.error_between, row.angle_error * farthest_point(one)}));

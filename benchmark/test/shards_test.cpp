@@ -64,7 +64,7 @@ struct Work {
   /// All tables as text, without run times.
   std::string tables(Units& units) const {
     std::vector<ErrorRow> rows = error_table(methods, scenes, units);
-    const std::vector<ErrorRow> more = rod_table(rods, units);
+    const std::vector<ErrorRow> more = rod_table(rods, {}, units);
     rows.insert(rows.end(), more.begin(), more.end());
     for (ErrorRow& row : rows) row.wall_us_per_simulated_second = row.other_wall_us = 0.0;
     const StabilityMap stability = stability_map(map, units);

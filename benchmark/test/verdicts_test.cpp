@@ -544,6 +544,30 @@ TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
   EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
 }
 
+TEST(Verdicts, OnRodsEnginesAreAmongThePeersAndTheBestOfThemIsJudgedWhereOneWasRun) {
+  const auto of_rod = [](std::vector<ErrorRow>& rows) {
+    for (ErrorRow& row : rows) row.scene = "soft_light", row.shape = "linear", row.hand = "samples";
+  };
+  for (const auto& [mass, asked] : {std::pair{1.0, 20.0}, std::pair{1e-3, 50.0}}) {
+    for (const double share : {0.99, 1.01}) {
+      Measurements measured;
+      add_line("exponential", 1.0, 10.0, measured.rods);
+      add_line("solver_dop853", 1.0, 1e4, measured.rods);
+      of_rod(measured.rods);
+      EXPECT_THROW(verdict_on(measured, "Rod soft_light", "the best engine"), std::runtime_error);
+      add_line("ode_stable", 1.0, 10.0 * asked * share, measured.rods);
+      add_line("bullet_explicit", 1.0, 1e5, measured.rods);
+      of_rod(measured.rods);
+      for (ErrorRow& row : measured.rods) row.mass = mass;
+      for (const char* at : {"at 1e-06 of the amplitude", "at 0.001 of the largest deflection"}) {
+        const std::string claim = std::string("hand by samples, ") + at;
+        EXPECT_EQ(result_of(measured, claim, "the best engine"), share > 1.0 ? kPass : kFail) << mass << share;
+        EXPECT_EQ(verdict_on(measured, claim, "every peer").peer, "ode_stable");
+      }
+    }
+  }
+}
+
 ErrorRow one_step_per_sample(const std::string& rod) {
   ErrorRow row;
   row.scene = rod;
