@@ -242,7 +242,7 @@ def drag_panel(axes, rows, factor):
 def overview(table, picture, drags):
     """As wide as a page of text, with legible letters."""
     rows, contact_rows = by_step(read(table)), read(drags)
-    figure, panels = pyplot.subplots(2, 3, figsize=(11.0, 8.9))
+    figure, panels = pyplot.subplots(2, 3, figsize=(11.0, 9.2))
     names = (("soft_light", "stiff_light"), ("soft_heavy", "stiff_heavy"))
     factors = sorted({float(row["stiffness_factor"]) for row in contact_rows})
     for line, of_line, factor in zip(panels, names, (factors[0], factors[-1])):
@@ -254,11 +254,11 @@ def overview(table, picture, drags):
     panels[1][2].set_visible(len(factors) > 1)
     for axes in panels[1]:
         axes.set_xlabel("µs per simulated second")
-    figure.tight_layout(rect=(0, 0.165, 1, 0.955))
+    figure.tight_layout(rect=(0, 0.185, 1, 0.955))
     for x, text in ((0.36, "carried by a hand that is tracked at 50 Hz"), (0.85, "pressed on a plane and dragged")):
         figure.text(x, 0.97, text, ha="center", fontsize=12, fontweight="bold")
     for axes, x, columns in ((panels[0][0], 0.33, 3), (panels[0][2], 0.815, 2)):
-        place = dict(loc="upper center", bbox_to_anchor=(x, 0.165), ncol=columns, frameon=False, columnspacing=1.0)
+        place = dict(loc="upper center", bbox_to_anchor=(x, 0.185), ncol=columns, frameon=False, columnspacing=1.0)
         figure.legend(*axes.get_legend_handles_labels(), fontsize=8.8, **place)
     notes = "run time; steps or tolerances become finer along a line\npaper: with its model error"
     figure.text(0.33, 0.012, notes, ha="center", fontsize=9.5)
