@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/math/spatial.h"
 #include "spring_workbench/rod/tip_fit.h"
 
 namespace spring_workbench::benchmark {
@@ -30,6 +31,18 @@ motion::MotionState tip_of(const BodyState& body, const Vector3d& p_OE) {
   tip.velocity.angular = tip.X.linear() * body.w_WO_O;
   tip.velocity.linear = body.v_WO_W + tip.velocity.angular.cross(r);
   return tip;
+}
+
+/// The body's inertia for strain rates, as HeldBody::mass_matrix(), from the Jacobian that the fit has already.
+Matrix6d mass_matrix(const dynamics::HeldBody& held, const rod::TipFit<double>& fit, const Vector3d& p_OE) {
+  const Matrix3d R_HO = math::matrix(fit.tip.R_HE, 0);
+  const Vector3d p_EO = -(R_HO * p_OE);
+  Matrix6d J;  // velocity in H axes, and angular velocity in the body's
+  for (int j = 0; j < rod::max_strain_coordinates; ++j) {
+    const Vector3d w = math::vector(fit.tip.angular[j]);
+    J.col(j) << math::vector(fit.tip.linear[j]) + w.cross(p_EO), R_HO.transpose() * w;
+  }
+  return J.transpose() * spatial_matrix(held.body().mass, held.body().inertia_O) * J;
 }
 
 bool reaches(const rod::TipFit<double>& fit, const dynamics::RelativeMotion<double>& H_E, double length) {
@@ -87,7 +100,7 @@ Wrench RodForce::load(double t, double h, const BodyState& body) {
   Vector6d pull = -(stiffness_ * q_ + damping_ * q_dot_);
   if (ahead) {
     // The load changes rate and strain by h M⁻¹ pull and h² M⁻¹ pull.
-    const Matrix6d M = held_.mass_matrix(t, q_);
+    const Matrix6d M = mass_matrix(held_, fit, p_OE);
     pull = M * (M + h * (damping_ + h * stiffness_)).llt().solve(pull);
   }
   math::Three<double> force{}, moment{};

@@ -15,6 +15,8 @@ struct RodTablePlan {
   std::vector<double> tolerances;       ///< [m]; for integrators that choose their steps
   std::vector<double> peer_tolerances;  ///< for general methods
   double longest_run = 0.025;           ///< see ErrorTablePlan [s per simulated second]
+  double longest_coarse_run = 0.025;    ///< the same for runs that are compared, with errors above 1e-3 of the
+                                        ///< largest deflection [s per simulated second]
   double tolerance_time_limit = 1.0;    ///< a longer run to a tolerance is given up, and so are finer ones [s]
   Repetition repetition;
 };

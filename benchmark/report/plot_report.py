@@ -118,7 +118,13 @@ def styles(rows):
     tab20 = pyplot.get_cmap("tab20").colors
     for i, name in enumerate(peers):
         style[name] = dict(
-            color=tab20[i % 20], marker=MARKERS[i % len(MARKERS)], linewidth=0.9, markersize=3.5, zorder=2, label=name
+            color=tab20[i % 20],
+            marker=MARKERS[i % len(MARKERS)],
+            linestyle=("-", "--")[i // 20],
+            linewidth=0.9,
+            markersize=3.5,
+            zorder=2,
+            label=name,
         )
     return style
 
@@ -260,7 +266,7 @@ def overview(table, picture, drags):
     for axes, x, columns in ((panels[0][0], 0.33, 3), (panels[0][2], 0.815, 2)):
         place = dict(loc="upper center", bbox_to_anchor=(x, 0.185), ncol=columns, frameon=False, columnspacing=1.0)
         figure.legend(*axes.get_legend_handles_labels(), fontsize=8.8, **place)
-    notes = "run time; steps or tolerances become finer along a line\npaper: with its model error"
+    notes = "run time; steps or tolerances become finer along a line; paper: with its model error"
     figure.text(0.33, 0.012, notes, ha="center", fontsize=9.5)
     figure.text(0.815, 0.012, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
     figure.savefig(picture, dpi=140)
@@ -318,7 +324,7 @@ def brief(table, picture, drags):
     for name, cell in zip(names, (cells[0, 0], cells[0, 1], cells[1, 0], cells[1, 1])):
         axes = figure.add_subplot(cell)
         title, left, lines = rod_lines(rows, name)
-        brief_panel(axes, joined(lines), title=title, xlim=(30, 3e5), ylim=(1e-12, 100.0))
+        brief_panel(axes, joined(lines), title=title, xlim=(30, 1e6), ylim=(1e-12, 100.0))
         axes.axhline(left, color="#5f5f5f", linestyle="--")
         if name.startswith("soft"):
             axes.set_ylabel("largest error / deflection")

@@ -72,7 +72,7 @@ PageSection rods_section(const Measurements& measured, const Tables& tables, con
       "solver, good to 2e-9 m. Steps end at samples, but for those of CVODE unless it is restarted, and of methods "
       "…_through. Engines have no spring with a rod's law: where no degree of freedom is off, they move a free body "
       "on which it is a force, that of the start of the step (in MuJoCo's RK4 of each stage) or, …_stable, that of its "
-      "end, linearised. Runs that are not finite are those in which the body has left the range of the rod.";
+      "end, linearised. If the body leaves the range of the rod, their run is not finite.";
   section.figures.push_back(
       figure({"rods", tables.rods, "rods.png", {}, "Error against run time on the rods"}, folder));
   for (const std::string& shape : validation::names<rod::ShapeKind>()) {
