@@ -68,7 +68,7 @@ class ManyObjects(unittest.TestCase):
 
     def run_with(self, count):
         """The node's processor time per sample [s], the least of several parts, and how many samples have a state, by
-        topic."""
+        topic, and the number of late cycles."""
         scene = os.path.join(self.folder, "square%d.urdf" % count)
         write_scene(scene, count)
         node = subprocess.Popen([NODE, "_scene:=" + scene, "_rate:=1000"])
@@ -118,15 +118,17 @@ class ManyObjects(unittest.TestCase):
             subscriber.unregister()
         node.terminate()
         node.wait(DEADLINE)
-        return spent, {topic: len(stamps[topic] & set(sent[100:-1])) for topic in ("objects", "display/objects")}
+        states = {topic: len(stamps[topic] & set(sent[100:-1])) for topic in ("objects", "display/objects")}
+        return spent, states, int(loop["deadlines missed"])
 
     def test_what_rests_costs_nothing(self):
         with tempfile.TemporaryDirectory() as self.folder:
-            few, _ = self.run_with(FEW)
-            many, states = self.run_with(MANY)
+            few, *_ = self.run_with(FEW)
+            many, states, late = self.run_with(MANY)
         print("states of %d samples: %s" % (SAMPLES - 1, states))
         self.assertEqual(states["objects"], SAMPLES - 1)
-        self.assertGreater(states["display/objects"], 0.5 * states["objects"])  # a late cycle shows its newest alone
+        # Of the samples that come during a late cycle, the next one shows the newest alone.
+        self.assertGreaterEqual(states["display/objects"], 0.99 * states["objects"] - late)
         self.assertLess(many, 2.0 * few)
 
 
