@@ -9,12 +9,12 @@
 #include <random>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "benchmark/peers.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/rod_table.h"
+#include "case_called.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark::rod_engines_test {
@@ -25,15 +25,6 @@ using When = RodForce::When;
 const std::vector<RodEngine>& engines() {
   static const Peers instance = all_peers();
   return instance.rods;
-}
-
-RodCase case_called(const std::string& name, double duration) {
-  for (RodCase one : synthetic_cases(false)) {
-    if (one.name != name) continue;
-    one.duration = duration;
-    return one;
-  }
-  throw std::runtime_error("no case " + name);
 }
 
 bool is_rk4(const RodEngine& engine) { return engine.when == When::each_stage; }

@@ -9,7 +9,6 @@
 #include <random>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 
@@ -21,6 +20,7 @@
 #include "benchmark/rod_table.h"
 #include "benchmark/simulated_rod.h"
 #include "benchmark/stability_map.h"
+#include "case_called.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
@@ -29,15 +29,6 @@
 
 namespace spring_workbench::benchmark::rods_test {
 namespace {
-
-RodCase case_called(const std::string& name, double duration) {
-  for (RodCase one : synthetic_cases(false)) {
-    if (one.name != name) continue;
-    one.duration = duration;
-    return one;
-  }
-  throw std::runtime_error("no case " + name);
-}
 
 TEST(RodCases, HandsAreTheSameFromTheSameSeedAndOthersFromAnother) {
   const auto a = synthetic_hand(3, 1.0), b = synthetic_hand(3, 1.0), c = synthetic_hand(4, 1.0);
