@@ -7,11 +7,15 @@ void ClusterOperator::set_zero(int size) {
   std::fill_n(rows_.begin(), size * size, math::Pack{});
 }
 
-void ClusterOperator::set(std::size_t lane, int first, const ModalRates::Matrix& block) {
-  for (int i = 0; i < block.rows(); ++i) {
-    for (int j = 0; j < block.cols(); ++j) {
+void ClusterOperator::set(int first, double factor, const ClusterFunctions& block) {
+  for (int lane = 0; lane < math::pack_size; ++lane) set_lane(lane, first, factor, block, lane);
+}
+
+void ClusterOperator::set_lane(int lane, int first, double factor, const ClusterFunctions& block, int from) {
+  for (int i = 0; i < block.size(); ++i) {
+    for (int j = 0; j < block.size(); ++j) {
       const int element = (first + i) * size_ + first + j;
-      rows_[static_cast<std::size_t>(element)][lane] = block(i, j);
+      rows_[static_cast<std::size_t>(element)][lane] = factor * block(i, j)[from];
     }
   }
 }

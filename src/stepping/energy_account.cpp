@@ -85,33 +85,31 @@ dynamics::HandleForcing over_step(const dynamics::HeldBody& body, const motion::
   return over;
 }
 
-double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
-                     const dynamics::StrainState& begin, const dynamics::StrainState& end) {
-  const double t = handle.t;
-  const dynamics::HandleForcing still = with_frames_at_rest(handle);
+EnergyGain::EnergyGain(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
+                       const dynamics::StrainState& begin)
+    : body_(body), still_(with_frames_at_rest(handle)), q_(begin.q) {
   const dynamics::StrainState at_rest{begin.q, 0.0 * begin.q_dot};
-  const auto energy = [&](const dynamics::StrainState& s) {
-    return 0.5 * s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot) + body.elastic_energy(t, s) +
-           body.read_couplings(still, s).springs.energy;
-  };
-  dynamics::HandleForcing origin;
-  origin.t = t;
-  const auto position = [&](const dynamics::StrainState& s) -> Vector3d {
-    return body.object(origin, s).X.translation();
-  };
-  // The state that was last asked for first: its tip is known.
-  const double energy_at_end = energy(end);
-  const Vector3d p_at_end = position(end);
   // Weight, the handle's acceleration and the contact's force are constant on the way; other loads are as at the begin.
   const auto R_HW = handle.X_WH.linear().transpose();
-  const Vector3d force = R_HW * body.load().force - body.body().mass * handle.proper_acceleration_H;
-  const Wrench others = body.read_couplings(still, at_rest).pull_W;
+  force_ = R_HW * body.load().force - body.body().mass * handle.proper_acceleration_H;
+  const Wrench others = body.read_couplings(still_, at_rest).pull_W;
   Vector6d accounted;
-  accounted << force + R_HW * others.force, R_HW * others.moment;
-  const rod::StrainVector loads = body.mass_matrix(t, begin.q) * body.acceleration(handle, begin.q, at_rest.q_dot) +
-                                  body.elastic_force(t, begin.q) -
-                                  body.object_jacobian(t, begin.q).transpose() * accounted;
-  return energy_at_end - energy(begin) - loads.dot(end.q - begin.q) - force.dot(p_at_end - position(begin));
+  accounted << force_ + R_HW * others.force, R_HW * others.moment;
+  loads_ = body.mass_matrix(handle.t, begin.q) * body.acceleration(handle, begin.q, at_rest.q_dot) +
+           body.elastic_force(handle.t, begin.q) - body.object_jacobian(handle.t, begin.q).transpose() * accounted;
+  energy_ = energy(begin);
+}
+
+double EnergyGain::operator()(const dynamics::StrainState& end) const {
+  return energy(end) - energy_ - loads_.dot(end.q - q_);
+}
+
+double EnergyGain::energy(const dynamics::StrainState& state) const {
+  const double t = still_.t;
+  dynamics::HandleForcing origin;
+  origin.t = t;
+  return 0.5 * state.q_dot.dot(body_.mass_matrix(t, state.q) * state.q_dot) + body_.elastic_energy(t, state) +
+         body_.read_couplings(still_, state).springs.energy - force_.dot(body_.object(origin, state).X.translation());
 }
 
 }  // namespace spring_workbench::stepping

@@ -27,10 +27,24 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
 dynamics::HandleForcing over_step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t,
                                   double h);
 
-/// Energy of springs and motion in the frame of the handle, and of couplings with frames at rest in it, after a step to
-/// the moment of `handle`, less the energy before and the work of weight, handle's acceleration and contact as `handle`
-/// has them [J]: with those at the end, not above 0 for implicit Euler on a fork that is linear.
-double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
-                     const dynamics::StrainState& begin, const dynamics::StrainState& end);
+/// Energy that a step from `begin` to the moment of `handle` gains: of springs and motion in the frame of the handle,
+/// and of couplings with frames at rest in it, less the energy before and the work of weight, handle's acceleration and
+/// contact as `handle` has them. With those at the end, not above 0 for implicit Euler on a fork that is linear.
+class EnergyGain {
+ public:
+  EnergyGain(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, const dynamics::StrainState& begin);
+  /// [J] of the step to this state.
+  double operator()(const dynamics::StrainState& end) const;
+
+ private:
+  double energy(const dynamics::StrainState& state) const;  ///< with that in the constant force [J]
+
+  const dynamics::HeldBody& body_;
+  dynamics::HandleForcing still_;  ///< that of the handle, with the frames of the couplings at rest
+  rod::StrainVector q_;            ///< at the begin
+  Vector3d force_;                 ///< on the object, constant on the way, in the axes of the handle [N]
+  rod::StrainVector loads_;        ///< the other forces at the begin, per strain
+  double energy_ = 0.0;            ///< at the begin [J]
+};
 
 }  // namespace spring_workbench::stepping

@@ -21,9 +21,10 @@ void fallback_step(const dynamics::HeldBody& body, const motion::FrameMotion& ha
         begin.q_dot + matrix.solve(h * (motion.M * acceleration) - h * h * (motion.K * begin.q_dot));
     return {begin.q + h * q_dot, q_dot};
   };
+  const EnergyGain gained(body, end, begin);
   // Takes from the rates what has been gained. Returns false if even at rest there is more energy than before.
   const auto within_energy = [&](const dynamics::StrainState& found) {
-    const double left = -energy_gained(body, end, begin, {found.q, 0.0 * found.q_dot});
+    const double left = -gained({found.q, 0.0 * found.q_dot});
     const double moving = 0.5 * found.q_dot.dot(body.mass_matrix(t + h, found.q) * found.q_dot);
     state = found;
     if (moving > left) state.q_dot *= std::sqrt(std::max(0.0, left) / moving);

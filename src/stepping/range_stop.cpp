@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "constants.h"
 #include "energy_account.h"
@@ -39,10 +40,13 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     return 0.5 * s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot);
   };
   // Against a contact's load, which holds for one step, only what moves counts.
-  const auto gained = [&, moving = kinetic(end)](const dynamics::StrainState& s) {
-    return body.loaded() ? kinetic(s) - moving : energy_gained(body, handle, begin, s);
-  };
+  const double moving_before = body.loaded() ? kinetic(end) : 0.0;
   const dynamics::LinearisedMotion motion(body, handle, begin.q);
+  std::optional<EnergyGain> energy;
+  if (!body.loaded()) energy.emplace(body, handle, begin);
+  const auto gained = [&](const dynamics::StrainState& s) {
+    return energy ? (*energy)(s) : kinetic(s) - moving_before;
+  };
   const math::ImplicitMatrix step = motion.implicit(h);
   // Not further in than it is already.
   const double target = std::max(inside, used(begin.q));

@@ -247,7 +247,7 @@ bool StepControl::step_in_halves(Span& span, double t, double h, int level, bool
   const bool conserved = kind == dynamics::Integrator::Energy::conserved;
   double found = tried.solved && conserved ? tried.energy_error : 0.0;
   if (tried.solved && kind == dynamics::Integrator::Energy::dissipated) {
-    found = energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state);
+    found = EnergyGain(span.body, span.body.forcing(span.handle, t + h), state)(tried.state);
   }
   bool good = tried.solved && found <= allowed;
   if (good) {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "spring_workbench/exponential/modal_rates.h"
+#include "spring_workbench/exponential/cluster_functions.h"
 
 namespace spring_workbench::exponential {
 
@@ -12,8 +12,10 @@ class ClusterOperator {
   /// Number of modes in clusters; 0 in most motions.
   int size() const { return size_; }
   void set_zero(int size);
-  /// Sets the block that begins at element (`first`, `first`); an empty `block` is zero.
-  void set(std::size_t lane, int first, const ModalRates::Matrix& block);
+  /// Sets the block that begins at element (`first`, `first`), times a factor.
+  void set(int first, double factor, const ClusterFunctions& block);
+  /// Sets the same block in one lane, to that in another lane of `block`.
+  void set_lane(int lane, int first, double factor, const ClusterFunctions& block, int from);
   /// Adds the functions, each applied to its lane of `x`, to `y`.
   void add_applied(const math::Pack* x, math::Pack* y) const;
 

@@ -38,7 +38,7 @@ struct Collocation {
   /// coefficient of the third degree is Σ_k d_k / third_degree()[k].
   static const Row& third_degree();
 
-  /// Coefficients of one mode, pair or cluster for a step: `Scalar` is real, GeneralComplex or ClusterFunction.
+  /// Coefficients of one mode or pair for a step: `Scalar` is real or GeneralComplex.
   template <typename Scalar>
   struct Weights {
     using Column = std::array<Scalar, count>;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "spring_workbench/exponential/cluster_functions.h"
 #include "spring_workbench/exponential/cluster_operator.h"
 #include "spring_workbench/exponential/collocation.h"
 
@@ -48,9 +47,6 @@ struct ModalOperator {
     other[at(m)][lane] = value.im;
     other[at(m + 1)][lane] = value.square * value.im;
   }
-  void set(std::size_t lane, int m, const ClusterFunction& value) {
-    clusters.set(lane, m - (modes - clusters.size()), value.matrix);
-  }
 };
 
 /// The functions of a linear part that a step needs (Collocation::Weights), times the step.
@@ -81,10 +77,10 @@ struct ModalOperators {
     const int first = rates.unclustered();
     each([&](Operator& f) { f.clusters.set_zero(modes - first); });
     for (int m = first; m < modes; ++m) set(h, m, Collocation::Weights<double>{});
-    int m = first;
+    int begin = 0;
     for (const int size : rates.cluster_sizes) {
-      if (size > 0) set(h, m, cluster_weights(h * rates.clusters.block(m - first, m - first, size, size)));
-      m += size;
+      if (size > 0) set_cluster(h, begin, cluster_weights(h * rates.clusters.block(begin, begin, size, size)));
+      begin += size;
     }
   }
 
@@ -125,6 +121,17 @@ struct ModalOperators {
         defect[j].set(i, m, h * w.defect[i][j]);
         if (i + 1 == count) end_defect.set(j, m, h * w.defect[i][j]);
       }
+    }
+  }
+
+  void set_cluster(double h, int begin, const ClusterWeights& w) {
+    constant.clusters.set(begin, h, w.constant);
+    sample_constant.clusters.set(begin, h, w.sample_constant);
+    for (std::size_t j = 0; j < count; ++j) {
+      node[j].clusters.set(begin, h, w.node[j]);
+      sample[j].clusters.set(begin, h, w.sample[j]);
+      defect[j].clusters.set(begin, h, w.defect[j]);
+      end_defect.clusters.set_lane(static_cast<int>(j), begin, h, w.defect[j], math::pack_size - 1);
     }
   }
 

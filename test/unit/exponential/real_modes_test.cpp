@@ -50,9 +50,12 @@ Eigen::MatrixXd by_modes(const RealModes& modes, std::size_t k) {
   int at = 0;
   for (const int size : rates.cluster_sizes) {
     if (size == 0) break;
-    const ClusterFunction cluster{rates.clusters.block(at, at, size, size)};
-    of_blocks.block(rates.unclustered() + at, rates.unclustered() + at, size, size) =
-        phi_functions<5>(cluster)[k].matrix;
+    ClusterPhi phi;
+    find_phi_functions(5, {rates.clusters.block(at, at, size, size), math::Pack{0.0, 0.5, 1.0, 0.25}}, phi);
+    const int begin = rates.unclustered() + at;
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) of_blocks(begin + i, begin + j) = phi[k](i, j)[2];
+    }
     at += size;
   }
   return modes.vectors * of_blocks * modes.inverse;
