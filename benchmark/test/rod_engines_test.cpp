@@ -92,6 +92,34 @@ TEST(RodForce, OfTheEndOfAStepIsThatOfSpringAndDamperThere) {
   }
 }
 
+TEST(RodForce, OfTheEndOfAStepIsTheLawAtTheStateThatItLeadsTo) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> share(-1e-4, 1e-4);
+  for (const double stiffness : {1.0, 1e3, 1e6}) {
+    RodCase one = case_called("soft_6dof", 1.0);
+    one.fork.stiffness = {stiffness * one.fork.stiffness.stretch, stiffness * one.fork.stiffness.bend,
+                          stiffness * one.fork.stiffness.torsion};
+    for (motion::PoseSample& sample : one.hand) sample.X = one.hand[0].X;
+    const dynamics::HeldBody held = held_body(one, "linear");
+    const SampledHand hand(one.hand, one.fork.length);
+    for (int i = 0; i < 10; ++i) {
+      dynamics::StrainState state = held.zero_state();
+      for (int k = 0; k < 6; ++k) state.q[k] = share(random) * held.units()[k];
+      BodyState body = body_at(held.object(held.forcing(hand.handle(0.0), 0.0), state));
+      const double h = 0.05 / std::sqrt(stiffness);
+      body.v_WO_W = h * 9.81 * Vector3d::UnitZ();  // the law is linearised where the body would be without it
+      const Wrench load = RodForce(one, "linear", When::end_of_step).load(0.0, h, body);
+      body.v_WO_W += h * (load.force / one.mass - 9.81 * Vector3d::UnitZ());
+      body.w_WO_O += h * Vector3d((body.R_WO.conjugate() * load.moment).cwiseQuotient(one.inertia));
+      body.p_WO += h * body.v_WO_W;
+      body.R_WO = body.R_WO * Quaterniond(math::exp_so3(h * body.w_WO_O));
+      const Wrench there = RodForce(one, "linear", When::each_stage).load(h, h, body);
+      EXPECT_LT((there.force - load.force).norm(), 0.01 * load.force.norm()) << stiffness << ' ' << i;
+      EXPECT_LT((there.moment - load.moment).norm(), 0.01 * load.moment.norm()) << stiffness << ' ' << i;
+    }
+  }
+}
+
 TEST(RodForce, WhereTheRodDoesNotReachThereIsNoneFromThenOn) {
   const RodCase one = case_called("soft_6dof", 1.0);
   RodForce force(one, "linear", When::start_of_step);
