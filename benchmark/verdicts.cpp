@@ -195,7 +195,7 @@ const std::vector<ErrorTarget>& targets() {
   return all;
 }
 
-/// Whether a fork is stiff, itself or for its load: the motion depends on stiffness over mass.
+/// Whether a fork is stiff, itself or for its load (README.md, Rods): the motion depends on stiffness over mass.
 bool is_stiff(const ErrorRow& row) { return row.stiffness_factor * std::max(1.0, 5.0 / row.mass) >= 100.0; }
 
 /// By how much ours should be faster than the best engine.

@@ -74,7 +74,11 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::rigid(const ForcingOf<S>& h
       coordinates_.prescribe(math::lane(handle.t, k), k, q_all, q_dot_all, q_ddot_all);
     }
   }
-  find_tip(q_all, q_dot_all, tip);
+  if constexpr (math::lanes<S> == 1) {
+    tip = this->tip(q_all, q_dot_all, true);
+  } else {
+    find_tip(q_all, q_dot_all, tip);
+  }
   return without_strain_acceleration(handle, tip, q_dot_all, q_ddot_all);
 }
 

@@ -12,11 +12,9 @@ namespace spring_workbench::dynamics {
 /// from a fixed-point iteration with Anderson acceleration (exponential/anderson_mixer.h) that starts from the last
 /// step's polynomial (exponential/extrapolation.h) and ends when further iterations would change a fraction of the
 /// collocation error (exponential/convergence.h). If it does not converge, the linear part is recomputed at the start
-/// of the step, once; if that does not help, the step is not solved. The linear part is also recomputed when that pays
-/// (exponential/refactorisation.h).
-/// Order seven if the step resolves every mode, otherwise five; exact for linear systems under a handle whose
-/// acceleration is a cubic in time; no stiffness limits the step. The estimate of the local error is the sampled defect
-/// of the step's own interpolant.
+/// of the step, once. It is also recomputed when that pays (exponential/refactorisation.h). Order seven if the step
+/// resolves every mode, otherwise five; exact for linear systems under a handle whose acceleration is a cubic in time;
+/// no stiffness limits the step. The estimate of the local error is the sampled defect of the step's own interpolant.
 class Exponential final : public Integrator {
  public:
   Exponential();

@@ -5,7 +5,6 @@
 #include "constants.h"
 #include "spring_workbench/exponential/real_modes.h"
 #include "spring_workbench/math/so3.h"
-#include "spring_workbench/math/spatial.h"
 #include "spring_workbench/math/symmetric_modes.h"
 #include "spring_workbench/rod/difference_steps.h"
 

@@ -190,9 +190,8 @@ class HeldBody {
   void accelerate(const ForcingOf<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
   template <int n>
   void balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot, EnergyBalance& out) const;
-  /// Returns the kinematics for the strain of all coordinates.
+  /// Returns the kinematics for the strain of all coordinates, or for that of the active ones at time `t`.
   Kinematics kinematics(const StrainState& full) const;
-  /// Returns the kinematics for the strain `q` of the active coordinates at time `t`.
   Kinematics kinematics(double t, const rod::StrainVector& q) const;
   rod::StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
   /// Returns the coefficients of the DOFs' dampers for these damping ratios.
