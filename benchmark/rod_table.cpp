@@ -171,9 +171,9 @@ class Line {
   }
   const std::vector<ErrorRow>& rows() const { return rows_; }
 
-  /// Measures the run time of a compared row again and keeps the smaller one. Our runs to a tolerance are not compared.
+  /// Measures the run time of a compared row again and keeps the smaller one.
   void time_again(ErrorRow& row) const {
-    if (!row.finite || !is_compared_in({row.step, row.tolerance})) return;
+    if (!row.finite || !has_compared_times()) return;
     const RodRun again = timed({row.step, row.tolerance}, 1);
     if (again.finite) add_round(1e6 * again.wall_seconds / case_.duration, row);
   }
@@ -194,15 +194,13 @@ class Line {
     return run_simulated(one, shape_, method_, step, setting.tolerance);
   }
   bool is_ours_to_tolerance(const Setting& setting) const { return ours_ && setting.tolerance > 0.0; }
-  /// Whether run times on this line are compared with those of other methods.
-  bool has_compared_times() const { return has_peers(case_, shape_) && is_compared(method_, ours_); }
-  bool is_compared_in(const Setting& setting) const { return has_compared_times() && !is_ours_to_tolerance(setting); }
-  /// Runs that are compared are all made in a child process.
+  /// Whether run times on this line are compared with those of other methods, or of steps with those to a tolerance.
+  bool has_compared_times() const { return is_compared(method_, ours_); }
+  /// All in a child process.
   RodRun timed(const Setting& setting, int runs) const {
     const Repetition repetition{has_compared_times() ? runs : 1, plan_.repetition.seconds};
-    const auto repeated = [&] { return fastest(repetition, [&] { return run(case_, setting); }); };
-    if (setting.step > 0.0 && !is_compared_in(setting)) return repeated();
-    return run_in_time(plan_.tolerance_time_limit, repeated);
+    return run_in_time(plan_.tolerance_time_limit,
+                       [&] { return fastest(repetition, [&] { return run(case_, setting); }); });
   }
 
   /// Whether no finer step or tolerance is needed.

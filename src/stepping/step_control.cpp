@@ -19,6 +19,20 @@ bool usable(const dynamics::StrainState& state) {
   return (state.q.array().abs() < most_strain).all() && (state.q_dot.array().abs() < most_strain).all();
 }
 
+/// Errors of the strain as one length: of the object's position, and of its attitude by its radius of gyration.
+class ErrorLength {
+ public:
+  ErrorLength(const dynamics::HeldBody& body, double t, const dynamics::StrainState& state)
+      : J_(body.object_jacobian(t, state.q)), gyration_(radius_of_gyration(body.body().mass, body.body().inertia_O)) {}
+  double operator()(const rod::StrainVector& error) const {
+    return std::hypot((J_.topRows<3>() * error).norm(), gyration_ * (J_.bottomRows<3>() * error).norm());
+  }
+
+ private:
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> J_;
+  double gyration_;
+};
+
 /// From rates to the strain that they swing to, mode by mode, and the frequency of the stiffest mode.
 void set_modes(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, const rod::StrainVector& q,
                StepControl::Memory& memory) {
@@ -56,13 +70,6 @@ struct StepControl::Span {
   const motion::FrameMotion& handle;
   Memory& memory;
   ControlledStep report;
-
-  /// An error of the strain as one length: of the object's position, and of its attitude by its radius of gyration.
-  double length(double t, const dynamics::StrainState& state, const rod::StrainVector& error) const {
-    const auto J = body.object_jacobian(t, state.q);
-    return std::hypot((J.topRows<3>() * error).norm(),
-                      radius_of_gyration(body.body().mass, body.body().inertia_O) * (J.bottomRows<3>() * error).norm());
-  }
 };
 
 struct StepControl::Tried {
@@ -255,8 +262,7 @@ bool StepControl::step_in_halves(Span& span, double t, double h, int level, bool
     if (conserved) found = tried.energy_error;
     good = found <= allowed;
   }
-  // With the shortest steps a gain falls as their number to the order of the method. An estimate need not: it may be
-  // far from the errors that it estimates.
+  // A gain falls with the length of the steps to the order of the method. An estimate may be far from its error.
   const auto hopeless = [&] {
     return !conserved && std::ldexp(found, -integrator_->order() * (most_halvings - level)) > share(debt);
   };
@@ -285,8 +291,9 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::S
     bool good = false;
     if (tried.solved) {
       integrator_->propagate_deviation(span.body, span.handle, t, dt, state, tried.state, error);
+      const ErrorLength length(span.body, t + dt, tried.state);
       const auto amplitude = [&](const rod::StrainVector& q, const rod::StrainVector& q_dot) {
-        return std::hypot(span.length(t + dt, tried.state, q), span.length(t + dt, tried.state, memory.swing * q_dot));
+        return std::hypot(length(q), length(memory.swing * q_dot));
       };
       const double allowed = std::max(tolerance_ * dt / undamped_horizon, tolerance_ - amplitude(error.q, error.q_dot));
       const double local = amplitude(tried.estimate.q_error, tried.estimate.q_dot_error);
