@@ -58,7 +58,7 @@ struct Repetition {
   int runs = 1;
   double seconds = 0.0;  ///< [s]
 };
-constexpr double kMaxSeconds = 0.5;
+constexpr double kMaxSeconds = 0.05;
 
 /// Whether another run is due after `runs` runs that took `spent` [s] in total.
 bool wants_another(const Repetition& repetition, int runs, double spent);

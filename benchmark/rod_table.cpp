@@ -34,7 +34,8 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   for (int digits = 0; digits <= 12; digits += quick ? 4 : 1) plan.peer_tolerances.push_back(std::pow(10.0, -digits));
   plan.longest_run = quick ? 0.002 : 0.01;
   // Engines are to be fifty times slower than ours, which take up to 1 ms to a thousandth of the deflection.
-  plan.longest_coarse_run = quick ? 0.002 : 0.05;
+  plan.longest_coarse_run = quick ? 0.002 : 0.02;
+  plan.longest_engine_run = quick ? 0.002 : 0.05;
   plan.tolerance_time_limit = quick ? 0.05 : 1.0;
   plan.repetition = quick ? Repetition{1, 0.001} : Repetition{2, 0.005};
   return plan;
@@ -208,7 +209,8 @@ class Line {
     const ErrorRow& last = rows_.back();
     if (last.error_over_tolerance > 0.0) return 1e-6 * last.wall_us_per_simulated_second > plan_.longest_run;
     const bool is_coarse = has_compared_times() && last.error_over_largest_deflection > 1e-3;
-    return last.given_up || line_is_over(rows_, is_coarse ? plan_.longest_coarse_run : plan_.longest_run);
+    const double longest_coarse_run = engine_ != nullptr ? plan_.longest_engine_run : plan_.longest_coarse_run;
+    return last.given_up || line_is_over(rows_, is_coarse ? longest_coarse_run : plan_.longest_run);
   }
 
   ErrorRow row(const Setting& setting) const {

@@ -17,6 +17,7 @@ struct RodTablePlan {
   double longest_run = 0.025;           ///< see ErrorTablePlan [s per simulated second]
   double longest_coarse_run = 0.025;    ///< the same for runs that are compared, with errors above 1e-3 of the
                                         ///< largest deflection [s per simulated second]
+  double longest_engine_run = 0.025;    ///< that of engines
   double tolerance_time_limit = 1.0;    ///< a longer run to a tolerance is given up, and so are finer ones [s]
   Repetition repetition;
 };

@@ -248,7 +248,7 @@ TEST(RodEngines, HaveTheirLinesInTheTableWhereNoDofIsOffAndWhatIsLostIsARow) {
   plan.steps_per_output = {1, 4};
   plan.tolerances.clear();
   plan.peer_tolerances = {1e-3};
-  plan.longest_run = plan.longest_coarse_run = std::numeric_limits<double>::infinity();
+  plan.longest_run = plan.longest_engine_run = std::numeric_limits<double>::infinity();
   plan.tolerance_time_limit = 60.0;
   plan.repetition = {};
   std::ostringstream log;
