@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kEvery50Hz = 0.02;
 constexpr double kLargestShare = 0.1;  // fraction of the deflection; a coarser target says nothing about the spring
-constexpr double kRepeatable = 1.6;    // ratio that few run times exceed between two runs of the report
+constexpr double kRepeatable = 1.6;    // ratio that one run time in six exceeds between the rounds of a report
 constexpr const char* kFirstOfAll = "> 1 (up to 1.6: even, not judged)";
 constexpr const char* kOurs = "exponential";
 const ErrorMeasure kOfAmplitude = &ErrorRow::error_over_hand_amplitude;

@@ -246,10 +246,10 @@ TEST(Method, OneThatAbortsOrDivergesIsNotFiniteAndTheCallerLives) {
 }
 
 TEST(Method, RunsAreRepeatedUntilThereAreEnoughOfThemAndEnoughTimeButNoLonger) {
-  const Repetition three{3, 0.05};
-  EXPECT_TRUE(wants_another(three, 2, 0.06));
-  EXPECT_TRUE(wants_another(three, 1000, 0.049));
-  EXPECT_FALSE(wants_another(three, 3, 0.05));
+  const Repetition three{3, 0.005};
+  EXPECT_TRUE(wants_another(three, 2, 0.006));
+  EXPECT_TRUE(wants_another(three, 1000, 0.0049));
+  EXPECT_FALSE(wants_another(three, 3, 0.005));
   EXPECT_FALSE(wants_another(three, 1, 1.01 * kMaxSeconds));
   EXPECT_FALSE(wants_another({}, 1, 0.0));
 }

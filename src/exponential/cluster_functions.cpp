@@ -113,6 +113,7 @@ SPRING_WORKBENCH_WIDE void find_weights(const ClusterPhi& at_nodes, const Cluste
 
 }  // namespace
 
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): see elements_
 ClusterFunctions::ClusterFunctions(const ModalRates::Matrix& matrix, const Pack& factors)
     : size_(static_cast<int>(matrix.rows())) {
   for (int i = 0; i < size_; ++i) {
@@ -136,12 +137,11 @@ ClusterWeights cluster_weights(const ModalRates::Matrix& z) {
   ClusterPhi at_nodes, at_samples;
   find_phi_functions(2 * Collocation::count, {z, math::pack(Collocation::nodes)}, at_nodes);
   find_phi_functions(Collocation::count, {z, math::pack(Collocation::samples)}, at_samples);
-  const auto size = static_cast<int>(z.rows());
   ClusterWeights w;
-  w.constant.set_zero(size);
-  w.sample_constant.set_zero(size);
+  w.constant.set_zero(at_nodes[0].size());
+  w.sample_constant.set_zero(at_nodes[0].size());
   for (ClusterWeights::PerNode* of : {&w.node, &w.sample, &w.defect}) {
-    for (ClusterFunctions& f : *of) f.set_zero(size);
+    for (ClusterFunctions& f : *of) f.set_zero(at_nodes[0].size());
   }
   find_weights(at_nodes, at_samples, w);
   return w;

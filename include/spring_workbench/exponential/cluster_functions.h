@@ -12,7 +12,7 @@ namespace spring_workbench::exponential {
 /// Four functions of the quasi-triangular matrix of a cluster of rates, one in each lane: matrices with its blocks.
 class ClusterFunctions {
  public:
-  ClusterFunctions() = default;
+  ClusterFunctions() = default;  // NOLINT(cppcoreguidelines-pro-type-member-init): see elements_
   /// `matrix` times the factor of each lane.
   ClusterFunctions(const ModalRates::Matrix& matrix, const math::Pack& factors);
   SPRING_WORKBENCH_INLINE void set_zero(int size) {
@@ -21,14 +21,15 @@ class ClusterFunctions {
   }
 
   int size() const { return size_; }
-  SPRING_WORKBENCH_INLINE const math::Pack& operator()(int row, int column) const {
-    return elements_[static_cast<std::size_t>(row * size_ + column)];
-  }
-  SPRING_WORKBENCH_INLINE math::Pack& operator()(int row, int column) {
-    return elements_[static_cast<std::size_t>(row * size_ + column)];
-  }
+  SPRING_WORKBENCH_INLINE const math::Pack& operator()(int row, int column) const { return elements_[at(row, column)]; }
+  SPRING_WORKBENCH_INLINE math::Pack& operator()(int row, int column) { return elements_[at(row, column)]; }
 
  private:
+  SPRING_WORKBENCH_INLINE std::size_t at(int row, int column) const {
+    const int element = row * size_ + column;
+    return static_cast<std::size_t>(element);
+  }
+
   int size_ = 0;
   // Elements that `size_` leaves over are not set: that would cost as much as a product.
   std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)> elements_;
