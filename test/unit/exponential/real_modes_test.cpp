@@ -66,6 +66,26 @@ double error(const RealModes& modes, const Matrix& A) {
   return (modes.vectors * modes.blocks() * modes.inverse - A).norm();
 }
 
+TEST(ClusterFunctions, OfEachLaneAreThoseOfItsMultipleOfTheMatrix) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Matrix A = Matrix::Zero(4, 4);
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i <= j; ++i) A(i, j) = i == j ? -20.0 : 5.0 * unit(random);
+  }
+  const std::array<double, 4> factors{0.0, 0.1, 0.6, 1.0};
+  ClusterPhi side_by_side, alone;
+  find_phi_functions(8, {A, math::pack(factors)}, side_by_side);
+  for (int lane = 0; lane < 4; ++lane) {
+    find_phi_functions(8, {factors[static_cast<std::size_t>(lane)] * A, math::Pack{} + 1.0}, alone);
+    for (std::size_t k = 0; k <= 8; ++k) {
+      for (int i = 0; i < 4; ++i) {
+        for (int j = i; j < 4; ++j) EXPECT_NEAR(side_by_side[k](i, j)[lane], alone[k](i, j)[0], 1e-14) << k << lane;
+      }
+    }
+  }
+}
+
 TEST(RealModes, MakeTheMatrixAgain) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
