@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -92,12 +93,14 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
     const std::vector<CurvePoint> line = line_of(row.method);
     const double least = min_of_reference * uncertainty(target);  // errors below it mean nothing
     const double error = std::min(target.error, std::max({first_error(line), min_error(ours), least}));
-    pairs.push_back({row.method, error, run_time_for_error(ours, error), run_time_for_error(line, error),
-                     end_of_line(rows, row.method)});
+    pairs.push_back({row.method, error, run_time(ours, error), run_time(line, error), end_of_line(rows, row.method)});
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-    const double none = std::numeric_limits<double>::infinity();
-    return std::pair(!a.ratio(), a.ratio().value_or(none)) < std::pair(!b.ratio(), b.ratio().value_or(none));
+    const auto rank = [](const Pair& p) {
+      constexpr double none = std::numeric_limits<double>::infinity();
+      return std::tuple(!p.ratio(), p.ratio().value_or(none), p.peer_time.value_or(none));
+    };
+    return rank(a) < rank(b);
   });
   return pairs;
 }
@@ -107,7 +110,7 @@ std::optional<double> SceneRows::ratio_within(const ErrorTarget& target,
   const auto least_time = [&](const std::string& method) {
     const auto line = curve(
         rows, [&](const ErrorRow& row) { return row.method == method; }, target.measure);
-    return run_time_for_error(line, target.error);
+    return run_time(line, target.error);
   };
   const std::optional<double> ours = least_time(kOurs);
   std::optional<double> others;

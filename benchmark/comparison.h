@@ -39,7 +39,12 @@ struct Pair {
 /// The rows of one scene, stiffness, mass and knowledge of the hand.
 struct SceneRows {
   std::vector<ErrorRow> rows;
+  bool interpolates = true;  ///< whether run times between two settings are used; else those of measured ones alone
 
+  /// Run time of a method for an error [µs per simulated second]; nothing if it does not reach it.
+  std::optional<double> run_time(const std::vector<CurvePoint>& line, double error) const {
+    return interpolates ? run_time_for_error(line, error) : least_run_time_within(line, error);
+  }
   /// The target as a fraction of the largest deflection.
   double share_of_deflection(const ErrorTarget& target) const;
   /// What the samples of the hand leave open, as a fraction of the largest deflection; 0 if the hand is a function, or
@@ -47,8 +52,8 @@ struct SceneRows {
   double left_by_samples() const;
   /// Uncertainty of the reference, in the target's measure.
   double uncertainty(const ErrorTarget& target) const;
-  /// Compares ours with each `wanted` method of others. The worst results for ours come first, those that neither
-  /// reaches last. Skips those of not_compared().
+  /// Compares ours with each `wanted` method of others. The worst results for ours come first, the faster of
+  /// equal ones before the slower, and those that neither reaches last. Skips those of not_compared().
   std::vector<Pair> pairs(const ErrorTarget& target, const std::function<bool(const std::string&)>& wanted) const;
   /// Ratio of the least run time that any `wanted` method of others needs for an error of at most the target, to the
   /// least of ours; at each method's own error. Nothing unless both reach it.

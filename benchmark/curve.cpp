@@ -29,6 +29,14 @@ std::optional<double> run_time_for_error(std::vector<CurvePoint> points, double 
   return std::nullopt;
 }
 
+std::optional<double> least_run_time_within(const std::vector<CurvePoint>& points, double error) {
+  std::optional<double> least;
+  for (const CurvePoint& point : points) {
+    if (point.error <= error) least = std::min(least.value_or(point.run_time), point.run_time);
+  }
+  return least;
+}
+
 double first_error(const std::vector<CurvePoint>& points) {
   const auto cheapest = std::min_element(
       points.begin(), points.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.run_time < b.run_time; });

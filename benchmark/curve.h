@@ -18,6 +18,9 @@ struct CurvePoint {
 /// straight line in log-log). If the cheapest point already reaches it, its run time; nothing if no point does.
 std::optional<double> run_time_for_error(std::vector<CurvePoint> points, double error);
 
+/// Run time of the cheapest point with at most this error; nothing if there is none.
+std::optional<double> least_run_time_within(const std::vector<CurvePoint>& points, double error);
+
 /// Error of the cheapest point, where a curve begins. Infinite if there are no points.
 double first_error(const std::vector<CurvePoint>& points);
 /// Smallest error of the points. Infinite if there are no points.

@@ -1,5 +1,6 @@
 #include "benchmark/peers.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace spring_workbench::benchmark {
@@ -33,6 +34,9 @@ Peers all_peers() {
   append(mujoco_drags(), peers.drags);
   append(mujoco_boxes(), peers.boxes);
   peers.found.push_back("MuJoCo " SPRING_WORKBENCH_MUJOCO_VERSION);
+  const auto is_implicitfast = [](const MethodPtr& method) { return method->name() == "mujoco_joints_implicitfast"; };
+  if (std::none_of(peers.methods.begin(), peers.methods.end(), is_implicitfast))
+    peers.not_found.push_back("MuJoCo's implicitfast (MuJoCo 2.3.3 or later)");
 #else
   peers.not_found.push_back("MuJoCo (libmujoco-dev)");
 #endif

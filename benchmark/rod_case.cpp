@@ -73,6 +73,7 @@ std::vector<RodCase> bodies_and_forks() {
   underdamped.name = "underdamped";
   underdamped.fork.damping_ratio = {0.1, 0.1, 0.1};
   RodCase stiff = rod("stiff_6dof", 0.15, {2e5, 5e4, 200.0});
+  stiff.stiffness_factor = 100.0;
   stiff.mass = 0.3;
   stiff.inertia = Vector3d(2e-4, 3e-4, 4e-4);
   stiff.p_OE = Vector3d(0.01, 0.01, -0.03);
@@ -135,8 +136,8 @@ std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration, d
   const Matrix3d forward_and_up = math::exp_so3(Vector3d(0.0, 1.0, 0.0));
   std::vector<motion::PoseSample> samples;
   for (int i = 0; i * interval < duration + 0.5 * interval; ++i) {
-    const double t = i * interval;
-    motion::PoseSample sample{t, RigidTransform::Identity()};
+    const double t = from_rest(i * interval, kRamp).value;
+    motion::PoseSample sample{i * interval, RigidTransform::Identity()};
     Vector3d angle;
     for (int axis = 0; axis < 3; ++axis) {
       sample.X.translation()[axis] = sum(place[static_cast<std::size_t>(axis)], t);

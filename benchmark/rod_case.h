@@ -28,8 +28,8 @@ struct RodCase {
 };
 
 /// A hand's motion from t = 0 to `duration` [s] in samples `interval` [s] apart, made from `seed`: sines of 0.2 to 2.5
-/// Hz in position (some 0.15 m) and rotation (some 0.6 rad) with a tremor of 8 to 12 Hz (0.1 mm, 2 mrad). The fork
-/// points forward and up.
+/// Hz in position (some 0.15 m) and rotation (some 0.6 rad) with a tremor of 8 to 12 Hz (0.1 mm, 2 mrad), from rest
+/// (kRamp). The fork points forward and up.
 std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration, double interval = 0.02);
 
 /// The samples of a file `t x y z qx qy qz qw`; empty if there is no file.

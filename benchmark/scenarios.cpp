@@ -44,6 +44,12 @@ void set_single_spring(double k, Scenario& scene) {
 
 }  // namespace
 
+ScalarMotion from_rest(double t, double ramp) {
+  if (ramp <= 0.0 || t >= ramp) return {t - 0.5 * ramp, 1.0, 0.0};
+  const double u = t / ramp;
+  return {ramp * u * u * u * (1.0 - 0.5 * u), u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / ramp};
+}
+
 Scenario stretch_scene(double k, double damping_ratio, double mass) {
   Scenario scene = cube_scene(damping_ratio);
   scene.inertia *= mass / scene.mass;
@@ -89,8 +95,10 @@ Scenario six_dof_scene(double stiffness_factor, double damping_ratio, double mas
 namespace {
 
 ScalarMotion scalar_motion(const Scenario& scene, double t) {
-  return scene.kind == SceneKind::stretch ? sine(kStretchAmplitude, kStretchFrequency, 0.0, t)
-                                          : sine(kTorsionAmplitude, kTorsionFrequency, 0.0, t);
+  const ScalarMotion s = from_rest(t, scene.ramp);
+  const ScalarMotion x = scene.kind == SceneKind::stretch ? sine(kStretchAmplitude, kStretchFrequency, 0.0, s.value)
+                                                          : sine(kTorsionAmplitude, kTorsionFrequency, 0.0, s.value);
+  return {x.value, x.rate * s.rate, x.acceleration * s.rate * s.rate + x.rate * s.acceleration};
 }
 
 HandMotion tip_on_lissajous(double t) {
@@ -141,7 +149,14 @@ ScalarMotion scalar_hand(const Scenario& scene, double t) {
 
 HandMotion hand_motion(const Scenario& scene, double t) {
   if (scene.samples) return as_hand(scene.samples->tip(t).in_own_axes(t));
-  return scene.kind == SceneKind::six_dof ? tip_on_lissajous(t) : tip_on_sine(scene, t);
+  if (scene.kind != SceneKind::six_dof) return tip_on_sine(scene, t);
+  const ScalarMotion s = from_rest(t, scene.ramp);
+  HandMotion m = tip_on_lissajous(s.value);
+  m.acceleration.a_WT_W = m.acceleration.a_WT_W * s.rate * s.rate + m.state.v_WT_W * s.acceleration;
+  m.acceleration.alpha_WT_T = m.acceleration.alpha_WT_T * s.rate * s.rate + m.state.w_WT_T * s.acceleration;
+  m.state.v_WT_W *= s.rate;
+  m.state.w_WT_T *= s.rate;
+  return m;
 }
 
 HandMotion handle_motion(const Scenario& scene, double t) {
@@ -160,6 +175,7 @@ HandState handle_state(const Scenario& scene, double t) { return handle_motion(s
 
 Scenario with_sampled_hand(Scenario scene) {
   scene.samples.reset();
+  scene.ramp = kRamp;
   std::vector<motion::PoseSample> poses;
   constexpr int beyond = 2;  // so that the last interval has its velocities
   for (std::size_t i = 0; i < output_times(scene).size() + beyond; ++i) {

@@ -45,6 +45,7 @@ struct Scenario {
   double duration = 4.0;                  ///< [s]
   double output_interval = 0.02;          ///< [s]; outputs at 0, 0.02, …, duration
   double settled_after = 0.1;             ///< errors are measured after this time [s]
+  double ramp = 0.0;  ///< [s] in which the hand gets to its speed from rest; 0: it has it from the start on
   /// The poses of a tracker and the motion through them, if the hand is known only by these; null if it is a function
   /// of time.
   std::shared_ptr<const SampledHand> samples;
@@ -54,6 +55,19 @@ struct Scenario {
   /// Mass or moment of inertia for the one coordinate of scenes A and B [kg, kg m²].
   double single_inertia() const { return kind == SceneKind::stretch ? mass : inertia.z(); }
 };
+
+/// A coordinate with two derivatives.
+struct ScalarMotion {
+  double value = 0.0, rate = 0.0, acceleration = 0.0;
+};
+
+/// Time along the path of a hand that starts at rest and has its full speed after `ramp` [s]: twice continuously
+/// differentiable.
+ScalarMotion from_rest(double t, double ramp);
+
+/// [s]; the ramp of hands that are known by samples. A hand that grasps hardly moves, and the velocity at the first
+/// sample is that of a chord, which is far off if the hand moves already.
+constexpr double kRamp = 0.5;
 
 /// Scene A: 10 kg, or another mass, on a vertical spring-damper of stiffness `k` [N/m]; the hand at z = 0.1 sin(2π t).
 Scenario stretch_scene(double k, double damping_ratio = 1.0, double mass = 10.0);
@@ -68,8 +82,8 @@ Scenario torsion_scene(double k, double damping_ratio = 1.0);
 /// The box may have another mass.
 Scenario six_dof_scene(double stiffness_factor, double damping_ratio = 1.0, double mass = 5.0);
 
-/// The same scene with a hand that is known only by the poses of a tracker, one per output interval. All methods get
-/// the C¹ motion through them, with the velocities computed by the library.
+/// The same scene with a hand that starts from rest (kRamp) and is known only by the poses of a tracker, one per output
+/// interval. All methods get the C¹ motion through them, with the velocities computed by the library.
 Scenario with_sampled_hand(Scenario scene);
 
 /// Pose and velocity of the tip's rest frame T.
@@ -99,10 +113,7 @@ HandMotion hand_motion(const Scenario& scene, double t);
 HandState handle_state(const Scenario& scene, double t);
 HandMotion handle_motion(const Scenario& scene, double t);
 
-/// The one moving coordinate of the hand in scenes A and B: height [m] or twist [rad], with two derivatives.
-struct ScalarMotion {
-  double value = 0.0, rate = 0.0, acceleration = 0.0;
-};
+/// The one moving coordinate of the hand in scenes A and B: height [m] or twist [rad].
 ScalarMotion scalar_hand(const Scenario& scene, double t);
 
 /// Caches the result of `of` for a scene's hand at the last time [s], because several stages of a step, and all

@@ -18,11 +18,6 @@ constexpr double kFarthest = 1000.0;  // m
 
 bool contains(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
 
-/// Whether a method on samples runs through them instead of stopping at each.
-bool runs_through(const std::string& solver) {
-  return solver == "solver_cvode_bdf" || solver == "solver_cvode_adams" || contains(solver, "_through");
-}
-
 std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, OdeSolver::Rates rates) {
   if (contains(name, "dop853")) return make_dop853(size, std::move(rates));
   if (contains(name, "radau")) return make_radau(size, std::move(rates));
@@ -202,6 +197,10 @@ const std::vector<std::string>& solver_names() {
                                                  "solver_radau_through",
                                                  "solver_arkode_erk_through"};
   return names;
+}
+
+bool runs_through(const std::string& solver) {
+  return solver == "solver_cvode_bdf" || solver == "solver_cvode_adams" || contains(solver, "_through");
 }
 
 bool takes_step(const std::string& solver) { return solver == "solver_rk4"; }

@@ -11,6 +11,9 @@ namespace spring_workbench::benchmark {
 /// and its rate.
 const std::vector<std::string>& solver_names();
 
+/// Whether a general method on samples runs through them instead of stopping at each.
+bool runs_through(const std::string& solver);
+
 /// Whether a method has a step size instead of a tolerance.
 bool takes_step(const std::string& solver);
 

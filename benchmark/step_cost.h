@@ -24,4 +24,7 @@ void each_field(StepCost& c, Fields& fields) {
 /// after a change of stiffness.
 std::vector<StepCost> step_costs();
 
+/// Keeps the smaller cost of each part. A shard that measured only one of two rounds has no rows of the other one.
+void keep_least(const std::vector<StepCost>& again, std::vector<StepCost>& costs);
+
 }  // namespace spring_workbench::benchmark

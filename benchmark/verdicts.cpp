@@ -42,6 +42,9 @@ bool is_cvode(const std::string& method) { return method.find("cvode") != std::s
 bool is_solver(const std::string& method) { return method.rfind("hand_", 0) == 0 || method.rfind("solver_", 0) == 0; }
 bool is_engine(const std::string& method) { return !is_cvode(method) && !is_solver(method); }
 bool is_any(const std::string&) { return true; }
+bool is_dop853_or_radau(const std::string& method) {
+  return method.rfind("solver_dop853", 0) == 0 || method.rfind("solver_radau", 0) == 0;
+}
 
 std::string time_of(const std::optional<double>& time) { return time ? text(*time) + " µs/s" : "does not reach it"; }
 
@@ -148,9 +151,10 @@ Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
     verdict.ratio = std::min(verdict.ratio.value_or(*pairs[0].ratio()), *pairs[0].ratio());
     if (*pairs[0].ratio() <= 1.0) lost += (lost.empty() ? "" : "; ") + text(error) + ": " + text_of(pairs[0], target);
   }
-  verdict.measured = judged == 0    ? "no one reaches any"
-                     : lost.empty() ? "first at all " + std::to_string(judged)
-                                    : "of " + std::to_string(judged) + " lost at " + lost;
+  verdict.measured = judged == 0 ? "no one reaches any"
+                     : lost.empty()
+                         ? "first at all " + std::to_string(judged) + ", by " + text(*verdict.ratio) + "× at least"
+                         : "of " + std::to_string(judged) + " lost at " + lost;
   if (judged > 0) verdict.result = first_by(*verdict.ratio);
   return verdict;
 }
@@ -203,15 +207,46 @@ void against_engines(const SceneRows& scene, const ErrorTarget& target, std::vec
   out.push_back(against(scene, target, "the best engine", is_engine, is_stiff(scene.rows[0]) ? 50.0 : 20.0));
 }
 
+/// The same for CVODE.
+void against_cvode(const SceneRows& scene, const ErrorTarget& target, std::vector<Verdict>& out) {
+  out.push_back(against(scene, target, "CVODE in any form", is_cvode, is_stiff(scene.rows[0]) ? 20.0 : 2.0));
+}
+
+/// How many comparisons with every peer would end otherwise if run times between two settings were not used.
+void without_interpolation(std::vector<SceneRows> scenes, std::vector<Verdict>& out) {
+  int worse = 0, better = 0, count = 0;
+  const auto rank = [](const Verdict& v) {
+    return v.result == Verdict::Result::fail ? 0 : v.ratio < kRepeatable ? 1 : 2;
+  };
+  for (SceneRows& scene : scenes) {
+    for (const ErrorTarget& target : targets()) {
+      scene.interpolates = true;
+      const Verdict as_judged = against(scene, target, "every peer", is_any, 1.0);
+      scene.interpolates = false;
+      const Verdict measured = against(scene, target, "every peer", is_any, 1.0);
+      if (!as_judged.ratio || !measured.ratio) continue;
+      ++count;
+      worse += rank(measured) < rank(as_judged);
+      better += rank(measured) > rank(as_judged);
+    }
+  }
+  if (count == 0) return;
+  out.push_back({"Comparisons with every peer, from measured settings alone, without run times between two of them",
+                 "(not a target)",
+                 "of " + std::to_string(count) + " judged or even ones, " + std::to_string(worse) +
+                     " would end worse for ours and " + std::to_string(better) + " better"});
+}
+
 void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {
   const ErrorRow& first = scene.rows[0];
   const bool sampled = first.hand == "samples";
   for (const ErrorTarget& target : targets()) out.push_back(against(scene, target, "every peer", is_any, 1.0));
   if (sampled) out.push_back(at_every_error(scene, "every peer"));
-  if (first.scene != "C") return;
+  if (!sampled && !is_stiff(first))
+    out.push_back(against(scene, {1e-9, kOfAmplitude}, "DOP853 and Radau IIA", is_dop853_or_radau, 1.0));
   for (const ErrorTarget& target : {targets()[0], targets()[1]}) {
     against_engines(scene, target, out);
-    out.push_back(against(scene, target, "CVODE in any form", is_cvode, is_stiff(first) ? 20.0 : 2.0));
+    against_cvode(scene, target, out);
   }
 }
 
@@ -264,8 +299,8 @@ void sketch(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-/// Compares rods on a tracked hand with general methods and engines, in the shapes that these were run with.
-void rods_against_peers(const Measurements& m, std::vector<Verdict>& out) {
+/// The rods on a tracked hand that were run with general methods or engines, in the shapes of these runs.
+std::vector<SceneRows> rods_with_peers(const Measurements& m) {
   std::set<std::pair<std::string, std::string>> with_peers;
   for (const ErrorRow& row : m.rods)
     if (!row.ours) with_peers.emplace(row.scene, row.shape);
@@ -273,12 +308,17 @@ void rods_against_peers(const Measurements& m, std::vector<Verdict>& out) {
   std::copy_if(m.rods.begin(), m.rods.end(), std::back_inserter(rows), [&](const ErrorRow& row) {
     return with_peers.count({row.scene, row.shape}) > 0 && row.error_over_tolerance == 0.0;
   });
-  for (const SceneRows& rod : by_scene(rows)) {
-    for (const ErrorTarget& target : targets()) out.push_back(against(rod, target, "every peer", is_any, 1.0));
-    out.push_back(at_every_error(rod, "every peer"));
-    const auto is_of_engine = [](const ErrorRow& row) { return !row.ours && is_engine(row.method); };
-    if (std::none_of(rod.rows.begin(), rod.rows.end(), is_of_engine)) continue;
-    for (const ErrorTarget& target : {targets()[0], targets()[1]}) against_engines(rod, target, out);
+  return by_scene(rows);
+}
+
+void rod_against_peers(const SceneRows& rod, std::vector<Verdict>& out) {
+  for (const ErrorTarget& target : targets()) out.push_back(against(rod, target, "every peer", is_any, 1.0));
+  out.push_back(at_every_error(rod, "every peer"));
+  const auto is_of_engine = [](const ErrorRow& row) { return !row.ours && is_engine(row.method); };
+  const bool has_engines = std::any_of(rod.rows.begin(), rod.rows.end(), is_of_engine);
+  for (const ErrorTarget& target : {targets()[0], targets()[1]}) {
+    if (has_engines) against_engines(rod, target, out);
+    against_cvode(rod, target, out);
   }
 }
 
@@ -320,7 +360,7 @@ void cost_of_a_step(const Measurements& m, std::vector<Verdict>& out) {
 
 /// What runs of `method` to a tolerance cost and how far below it they end, beside fixed steps on the same rod.
 void tolerance_beside_steps(const Measurements& m, const std::string& method, std::vector<Verdict>& out) {
-  int kept = 0, count = 0, cheap = 0, compared = 0;
+  int kept = 0, longest_already = 0, count = 0, cheap = 0, compared = 0;
   double dearest = 0.0;
   std::string where;
   for (const ErrorRow& row : m.rods) {
@@ -338,6 +378,7 @@ void tolerance_beside_steps(const Measurements& m, const std::string& method, st
       if (beside(other) && other.finite) longest = std::min(longest, other.steps_per_second);
     }
     const bool longer_are_open = row.steps_per_second > longest;
+    longest_already += !longer_are_open;
     kept += row.error_over_tolerance <= 3.0 && (row.error_over_tolerance >= 0.01 || !longer_are_open);
     // The tolerance is of the position at the outputs.
     const auto fixed = run_time_for_error(curve(m.rods, beside, &ErrorRow::position_error), row.position_error);
@@ -350,7 +391,9 @@ void tolerance_beside_steps(const Measurements& m, const std::string& method, st
   }
   const std::string claim = "Tolerance mode, " + method + ", all rods";
   out.push_back(judged(claim + ", errors of the runs", "≤ 3 × the tolerance; ≥ 0.01 × where longer steps were open",
-                       std::to_string(kept) + " of " + std::to_string(count), kept == count));
+                       std::to_string(kept) + " of " + std::to_string(count) + "; no longer steps were open to " +
+                           std::to_string(longest_already) + " of them",
+                       kept == count));
   if (compared == 0) return;
   out.push_back(
       judged(claim + ", run time", "≤ 1.5 × that of fixed steps with the same error of position at the outputs",
@@ -657,7 +700,11 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
   }
   repeatability(measured, out);
   sketch(measured, out);
-  rods_against_peers(measured, out);
+  const std::vector<SceneRows> rods_compared = rods_with_peers(measured);
+  for (const SceneRows& rod : rods_compared) rod_against_peers(rod, out);
+  std::vector<SceneRows> compared = scenes;
+  compared.insert(compared.end(), rods_compared.begin(), rods_compared.end());
+  without_interpolation(std::move(compared), out);
   rods(measured, out);
   cost_of_a_step(measured, out);
   cost_of_a_change(measured, out);

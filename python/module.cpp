@@ -41,7 +41,9 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   py::object(input_error).attr("__doc__") =
-      "Invalid input. The message names the field, the value and the allowed values. The state is unchanged.";
+      "Invalid input, in one line. For an invalid value it names the field, the value and the allowed values. A call "
+      "that "
+      "raises it changes nothing, unless it says otherwise.";
   bind_settings(module);
   bind_motions(module);
   bind_states(module);

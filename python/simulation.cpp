@@ -255,9 +255,11 @@ void bind_settings(py::module& module) {
       .def_readonly("default", &SettingDescription::default_value, "Default value, as text.")
       .def_readonly("meaning", &SettingDescription::meaning, "Effect of the setting, in one line.");
   module.def("setting_descriptions", &simulation::setting_descriptions, "Returns the descriptions of all settings.");
-  py::class_<SimulationSettings>(module, "SimulationSettings",
-                                 "Settings of a simulation by key, checked when they are set. setting_descriptions() "
-                                 "explains each key. Settings cannot be read back: keep the dictionary.")
+  py::class_<SimulationSettings>(
+      module, "SimulationSettings",
+      "Settings of a simulation by key, each checked when it is set; what they must be together "
+      "is checked by Simulation. setting_descriptions() explains each key. Settings cannot "
+      "be read back: keep the dictionary.")
       .def(py::init(&to_settings), py::arg("values") = py::dict(),
            "values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown "
            "key, a wrong type or a value that is not allowed.")
@@ -281,8 +283,8 @@ void bind_simulation(py::module& module) {
   `grasp.object`. To begin without a hand, place() objects in the air and call advance_to().
 - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come in
   any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
-- Time: a simulation reads no clock and starts no thread. The same sequence of calls gives bit-identical results. No
-  result is ever NaN.
+- Time: a simulation reads no clock and starts no thread. The same sequence of calls gives bit-identical results on
+  processors of the same kind (with AVX and FMA, or without). No result is ever NaN.
 - Copies: arrays are copies. To copy a simulation, restore its saved state in a new one of the same scene and settings.
   A simulation is not thread-safe.)");
   type.def(py::init([](const scene::Scene& scene, const std::variant<SimulationSettings, py::dict>& settings) {
@@ -331,7 +333,7 @@ wrenches of its own or a later time. Raises InputError if a value is not allowed
            R"(Adds the samples and button edges of a recorded motion. Returns the number of samples that were added.
 
 Like push_stylus, it ignores each pose whose time is not later than the time of the newest one. Raises InputError if a
-pose is invalid.)")
+pose is invalid; the samples before it are then added.)")
       .def("advance_to", &Simulation::advance_to, py::arg("t_end"),
            py::arg("pause") = std::numeric_limits<double>::infinity(), py::call_guard<py::gil_scoped_release>(),
            R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.

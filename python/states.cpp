@@ -86,7 +86,7 @@ void bind_tool(py::module& module) {
       .def_property_readonly(
           "handle_wrench", [](const ToolState& s) { return to_array(s.handle_wrench_H); },
           "Force [N] on the hand and its moment [N m] about the handle's origin, axes of the handle; shape (6,).")
-      .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the fork [J].")
+      .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the tool [J].")
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object, in world [J].")
       .def_readonly("error_bound", &ToolState::error_bound,
                     "Bound of the error of integration in position [m], accumulated since the grasp or since the last "
@@ -102,8 +102,10 @@ void bind_tool(py::module& module) {
                     "Transverse force at the handle [N] (the paper, section 4).")
       .def_readonly("force_angle", &ToolState::force_angle,
                     "Angle between the tool's axis and the force on it, 0 to pi [rad] (the paper, section 4).")
-      .def_readonly("load", &ToolState::load,
-                    "Position of the load in the scene's range of loads, 0 (none) to 1 (the heaviest object).")
+      .def_readonly(
+          "load", &ToolState::load,
+          "The larger of the tip's force and its moment over the length, from 0 to 1 (the weight of the scene's "
+          "heaviest object); logarithmic if the weights of the objects span more than a decade.")
       .def_readonly("clutch", &ToolState::clutch, "True while the hand moves without the tool.")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
                     "Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading.")
@@ -177,8 +179,8 @@ steps_among_movable are in C++ only.)")
       .def_readonly("collision_queries", &AdvanceReport::collision_queries,
                     "Number of queries to the collision library.")
       .def_readonly("stops", &AdvanceReport::stops,
-                    "Number of steps in which the fork reached the end of its range: fully compressed or wound up. "
-                    "Unrelated to the contact mode stop.")
+                    "Number of steps in which the fork reached the end of its range: fully compressed or wound up, or "
+                    "half a turn of a bushing. Unrelated to the contact mode stop.")
       .def_readonly("steps_fallback", &AdvanceReport::steps_fallback,
                     "Number of integrations by the L-stable rule, in place of the integrator.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
@@ -240,7 +242,8 @@ void bind_motions(py::module& module) {
       .def_property_readonly(
           "poses",
           [](const Motion& m) { return to_arrays(m.samples.size(), [&](std::size_t i) { return m.samples[i].X; }); },
-          "Poses of the stylus in world, positions in m; shape (n, 4, 4).")
+          "Poses of the stylus in the frame of the file, which is world for push_motion(), positions in m; shape "
+          "(n, 4, 4).")
       .def_property_readonly(
           "buttons",
           [](const Motion& m) {

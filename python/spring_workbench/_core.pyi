@@ -12,7 +12,8 @@ _Axes = Literal["world", "tip"]
 _DampingLaw = Literal["per_dof", "modal", "coefficients"]
 
 class InputError(ValueError):
-    """Invalid input. The message names the field, the value and the allowed values. The state is unchanged."""
+    """Invalid input, in one line. For an invalid value it names the field, the value and the allowed values. A call that
+    raises it changes nothing, unless it says otherwise."""
 
 class SettingDescription:
     """Description of one setting."""
@@ -36,8 +37,8 @@ class SettingDescription:
         """Effect of the setting, in one line."""
 
 class SimulationSettings:
-    """Settings of a simulation by key, checked when they are set. setting_descriptions() explains each key. Settings
-    cannot be read back: keep the dictionary."""
+    """Settings of a simulation by key, each checked when it is set; what they must be together is checked by Simulation.
+    setting_descriptions() explains each key. Settings cannot be read back: keep the dictionary."""
     def __init__(self, values: Mapping[str, Any] = ...) -> None:
         """values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown
         key, a wrong type or a value that is not allowed."""
@@ -77,7 +78,8 @@ class Motion:
         """Times of the samples since the first one [s]; shape (n,)."""
     @property
     def poses(self) -> _Floats:
-        """Poses of the stylus in world, positions in m; shape (n, 4, 4)."""
+        """Poses of the stylus in the frame of the file, which is world for push_motion(), positions in m; shape
+        (n, 4, 4)."""
     @property
     def buttons(self) -> _Bools:
         """True for each sample at which the grasp button is down; shape (n,)."""
@@ -156,7 +158,7 @@ class ToolState:
         """Force [N] on the hand and its moment [N m] about the handle's origin, axes of the handle; shape (6,)."""
     @property
     def elastic_energy(self) -> float:
-        """Energy stored in the fork [J]."""
+        """Energy stored in the tool [J]."""
     @property
     def kinetic_energy(self) -> float:
         """Kinetic energy of the held object, in world [J]."""
@@ -181,7 +183,8 @@ class ToolState:
         """Angle between the tool's axis and the force on it, 0 to pi [rad] (the paper, section 4)."""
     @property
     def load(self) -> float:
-        """Position of the load in the scene's range of loads, 0 (none) to 1 (the heaviest object)."""
+        """The larger of the tip's force and its moment over the length, from 0 to 1 (the weight of the scene's heaviest
+        object); logarithmic if the weights of the objects span more than a decade."""
     @property
     def clutch(self) -> bool:
         """True while the hand moves without the tool."""
@@ -281,8 +284,8 @@ class AdvanceReport:
         """Number of queries to the collision library."""
     @property
     def stops(self) -> int:
-        """Number of steps in which the fork reached the end of its range: fully compressed or wound up. Unrelated to
-        the contact mode stop."""
+        """Number of steps in which the fork reached the end of its range: fully compressed or wound up, or half a
+        turn of a bushing. Unrelated to the contact mode stop."""
     @property
     def steps_fallback(self) -> int:
         """Number of integrations by the L-stable rule, in place of the integrator."""
@@ -345,8 +348,8 @@ class Simulation:
       `grasp.object`. To begin without a hand, place() objects in the air and call advance_to().
     - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come
       in any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
-    - Time: a simulation reads no clock and starts no thread. The same sequence of calls gives bit-identical results. No
-      result is ever NaN.
+    - Time: a simulation reads no clock and starts no thread. The same sequence of calls gives bit-identical results
+      on processors of the same kind (with AVX and FMA, or without). No result is ever NaN.
     - Copies: arrays are copies. To copy a simulation, restore its saved state in a new one of the same scene and
       settings. A simulation is not thread-safe."""
     def __init__(self, scene: Scene, settings: Union[SimulationSettings, Dict[str, Any]] = ...) -> None:
@@ -379,7 +382,7 @@ class Simulation:
         """Adds the samples and button edges of a recorded motion. Returns the number of samples that were added.
 
         Like push_stylus, it ignores each pose whose time is not later than the time of the newest one. Raises
-        InputError if a pose is invalid."""
+        InputError if a pose is invalid; the samples before it are then added."""
     def advance_to(self, t_end: float, pause: float = ...) -> AdvanceReport:
         """Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 

@@ -27,7 +27,7 @@ ScriptedSource::ScriptedSource(const std::string& path) {
   config::check_keys(script, path, "", {"rate", "waypoints"});
   rate_ = config::read_required(script, path, "", "rate", config::read_number, validation::between(0.1, 1e4).in("Hz"));
   const YAML::Node list = script["waypoints"];
-  const std::string rule = "a list of at least one {t, pose, button}";
+  const std::string rule = "a list of at least one {t, pose} or {t, pose, button}";
   if (!list.IsDefined()) validation::refuse_missing(config::place(script, path), "waypoints", rule);
   if (!list.IsSequence() || list.size() == 0) validation::refuse(config::place(list, path), "waypoints", rule);
   double first = 0.0;

@@ -230,7 +230,9 @@ void Hand::calibrate(std::string& message, double now) {
   if (!calibrate_hold()) return;
   hold_->regrasp(before.X_WO, pull);
   keep_twist(before.V_WO_W);
-  message = to_world() ? "restored the scene's stiffness" : "calibrated for " + before.name;
+  message = objects_.massless(grasp_.object) ? before.name + " has no mass: nothing to calibrate"
+            : to_world()                     ? "restored the scene's stiffness"
+                                             : "calibrated for " + before.name;
 }
 
 tools::ToolState Hand::state(double now) const {

@@ -65,8 +65,7 @@ class Hand {
   /// Makes this tool exert `pull_W` on the object from now on, without moving the object.
   void take_over(const Wrench& pull_W, double now);
 
-  /// The fork of this hand, with all changes and calibrations since the start.
-  const rod::ForkSettings& fork() const { return fork_; }
+  const rod::ForkSettings& fork() const { return fork_; }  ///< with all changes and calibrations since the start
   /// Changes the fork, even while it holds an object. The change must be valid.
   void change_fork(const ForkChange& change, std::string& message);
   /// Adopts the changed integrator, step and tolerance of the settings.
@@ -104,8 +103,7 @@ class Hand {
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
   bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< whether there are coordinates to integrate
   const bodies::BodyState& object() const { return objects_.states()[grasp_.object]; }  ///< the held or pushed object
-  /// Distance of the tip from the hand, along z [m].
-  double reach() const;
+  double reach() const;  ///< distance of the tip from the hand, along z [m]
   tools::GraspedBody grasped_body() const {
     return {objects_.scene_index(grasp_.object), objects_.body(grasp_.object), object().X_WO};
   }

@@ -195,7 +195,7 @@ std::vector<Field> grasp_fields(S& s) {
              "what happens when holding an object would need more than limit.force or limit.moment: let_go: the object "
              "is released; slip: the tool keeps pulling with the limit while it slips in the hand",
              s.limit.action),
-      {{"grasp.object", "string", "–", "this object is held from the first sample to the last"},
+      {{"grasp.object", "string", "–", "this object is held from the first sample on; the grasp button does nothing"},
        [] { return "the name of a movable object of the scene"; },
        [] { return "none: grasped by button"; },
        [&](const auto& node, const auto& where) {

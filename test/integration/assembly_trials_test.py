@@ -145,8 +145,8 @@ class AssemblyTrials(unittest.TestCase):
             (["--scene", SOURCE + "/scenes/single_box.urdf"], "targets"),
             (["--scene", "/nowhere.urdf"], "/nowhere.urdf"),
             (["--scene", SCENE, "more"], "more"),
-            (["--scene", SCENE, "--out", "x", "--table", "x"], "--out, --table: cannot be given the same file"),
-            (["--scene", SCENE, "--table", "x", "--record", "./x"], "--table, --record: cannot be given the same file"),
+            (["--scene", SCENE, "--out", "x", "--table", "x"], "--out, --table: must be different files"),
+            (["--scene", SCENE, "--table", "x", "--record", "./x"], "--table, --record: must be different files"),
         ]:
             done = run(*arguments)
             self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)

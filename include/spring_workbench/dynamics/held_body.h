@@ -49,7 +49,7 @@ struct HandleForcings : ForcingOf<math::Pack> {
 /// Energy of held body and springs at several moments, with the power that should change it.
 struct EnergyBalance {
   /// Energy as seen from the moving handle [J]: elastic, kinetic and potential energy − p·v − L·ω, with the body's
-  /// momenta p, L about the handle's origin and the handle's velocities v, ω. At rest it is conserved without damping.
+  /// momenta p, L about the handle's origin and its velocities v, ω. Constant at rest without damping and contact.
   math::Pack energy;
   math::Pack power;  ///< power of the handle's acceleration, of contact and of the dampers in that frame [W]
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "spring_workbench/exponential/cluster_functions.h"
 
@@ -21,7 +21,7 @@ class ClusterOperator {
 
  private:
   int size_ = 0;
-  std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)> rows_{};
+  std::vector<math::Pack> rows_;  ///< takes memory where there are clusters only
 };
 
 }  // namespace spring_workbench::exponential

@@ -50,15 +50,16 @@ struct AcceptedInput {
 ///
 ///     hand_input::Feed feed(simulation, {});
 ///     while (running()) {
-///       const hand_input::LocalTime now{seconds(), seconds()};
+///       const hand_input::LocalTime now{seconds(), attended_seconds()};  // see there
 ///       while (const std::optional<hand_input::RawSample> raw = receive()) feed.push_stylus(*raw, X_WP, now);
 ///       while (const std::optional<double> t = feed.next_stop(now)) feed.advance_to(*t);
 ///     }
 ///
 /// The samples of each hand pass an outlier gate (SampleGate), smoothing, and re-acquisition (Reacquisition). In a live
 /// loop next_stop() decides up to which time the input is complete, so that the result does not depend on when messages
-/// arrive. Offline, push all samples and then call advance_to() for any time. Hands are numbered as in Simulation.
-/// Times are those of the hand's clock [s]. A feed has no thread; the same calls give bit-identical results.
+/// arrive. Offline, push all samples and then call advance_to() for any time. Hands are numbered as in Simulation;
+/// another number throws std::out_of_range. Times are those of the hand's clock [s]. A feed has no thread; the same
+/// calls give bit-identical results on processors of the same kind.
 class Feed {
  public:
   /// Whether the motion of the hands is predicted.

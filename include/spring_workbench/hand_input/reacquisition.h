@@ -19,9 +19,9 @@ struct ReacquisitionCounts {
 /// Computes the pose of the hand that the simulation follows. This is the tracked pose or, if the hand was lost and
 /// found elsewhere, a pose that starts at rest where the hand was last and catches up. Feed has one for each hand.
 ///
-/// From sample to sample the followed pose moves by the step of the tracked hand. In addition it moves towards the
-/// tracked pose, at `reacquisition_speed` and `reacquisition_turn_rate`, and at the end with a time constant of 0.1 s.
-/// Both speeds are ramped up smoothly over 0.2 s, and the followed hand exceeds the tracked one by no more.
+/// With each sample the followed pose moves by the step of the tracked hand, and towards the tracked pose at no more
+/// than `reacquisition_speed` and `reacquisition_turn_rate`, at the end with a time constant of 0.1 s. In the first
+/// 0.2 s both parts are scaled by a factor that rises smoothly from 0 to 1.
 class Reacquisition {
  public:
   explicit Reacquisition(const InputSettings& settings) : settings_(settings) {}  ///< copies the settings

@@ -70,7 +70,7 @@ class MotionSegment final : public FrameMotion {
   MotionSegment of_frame(const RigidTransform& X_BC) const;
 
   double begin() const { return begin_; }  ///< time of the start [s]
-  double end() const { return end_; }      ///< time of the end [s]; infinity for a frame at rest
+  double end() const { return end_; }      ///< time of the end [s]; infinity for one that rests for good
   /// Returns the motion at time `t` [s], begin() ≤ t ≤ end(), in world axes.
   MotionState at(double t) const;
   OwnAxesMotion in_own_axes(double t) const override;

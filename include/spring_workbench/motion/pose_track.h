@@ -17,13 +17,13 @@ class PoseTrack {
   explicit PoseTrack(double dropout_after = 0.5);
 
   /// Adds a sample. Returns false, and ignores the sample, if it is not later than the newest one by at least half a
-  /// nanosecond. Throws InputError if the sample is not finite, is out of range (|t| > 1e12 s, |p| > 1e9 m) or its
-  /// linear part is not a rotation.
+  /// nanosecond. Throws InputError if the sample is not finite, is out of range (|t| > 1e12 s, a coordinate beyond ±1e9
+  /// m) or its linear part is not a rotation.
   bool push(const PoseSample& sample);
 
   bool empty() const { return nodes_.empty(); }             ///< whether the track has no sample
-  double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample that is kept [s]
-  double end() const { return nodes_.back().sample.t; }     ///< time of the newest sample [s]
+  double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample kept [s]; not if empty()
+  double end() const { return nodes_.back().sample.t; }     ///< time of the newest sample [s]; not if empty()
   /// Returns the segment that starts at or contains the time `t` [s], begin() ≤ t, and freezes its velocities. From
   /// end() on, the segment rests at the newest pose. The reference is valid until the next call of a non-const
   /// function. Throws std::logic_error if the track is empty or `t` is before begin().

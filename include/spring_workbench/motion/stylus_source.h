@@ -46,8 +46,8 @@ inline std::vector<std::string> names_of(ExternalWrench::Axes) { return {"world"
 /// Throws InputError, with `where`, field, value and rule, if a component is not finite or out of range.
 void validate(const ExternalWrench& sample, const std::string& where);
 
-/// Source of stylus samples: a device, a recording or a script. It passes time stamps on unchanged, even if they repeat
-/// or go backward (PoseTrack then ignores the sample).
+/// Source of stylus samples: a device, a recording or a script. Times count from its first sample. Those that repeat or
+/// go backward are passed on, too; PoseTrack ignores such samples.
 class StylusSource {
  public:
   virtual ~StylusSource() = default;

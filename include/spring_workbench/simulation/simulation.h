@@ -127,9 +127,9 @@ struct ChangeReport {
 ///   object without a button, set `grasp.object`. To begin without a hand, place() objects in the air and advance_to().
 /// - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come
 ///   in any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
-/// - Time: the simulation owns its time and reads no clock. The same sequence of calls gives bit-identical results. No
-///   result is ever NaN. Times are those of the hand's clock, with any origin. World time runs
-///   `settings().hand_time_scale` times as fast; velocities, rates and `settings().dynamics.step` refer to it.
+/// - Time: the simulation owns its time and reads no clock. The same calls give the same bits on processors of one kind
+///   (with AVX and FMA, or without), and never NaN. Times are those of the hand's clock, with any origin. World time
+///   runs `settings().hand_time_scale` times as fast; velocities, rates and `settings().dynamics.step` refer to it.
 /// - Lifetimes: the scene is copied. References from const members are valid until the next call of a non-const one. A
 ///   simulation can be moved; to copy it, construct one from the same scene and settings, then copy_state_from().
 /// - Threads: not thread-safe, not even among const members, apart from prepare_edit() and prepare_rewind(). Separate
@@ -158,7 +158,7 @@ class Simulation {
   /// ignores the sample, if it is not later than the newest one. Throws InputError if the pose is not finite, not rigid
   /// or out of range (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// Adds a button edge at `t` [s], finite or InputError. It acts at the first step that begins at or after `t`.
+  /// Adds a button edge for the first step that begins at or after `t` [s]. Throws InputError if `t` is not finite.
   void push_edge(double t, motion::ButtonEdge edge, std::size_t hand = 0);
   /// Presses or releases the grasp button at time `t` [s].
   void push_button(double t, bool pressed, std::size_t hand = 0) {
@@ -177,8 +177,8 @@ class Simulation {
   /// changes nothing, if it is invalid.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   double newest_sample_time() const;  ///< time of the newest sample of any hand, or time() if there is none [s]
-  /// The next time [s] at which a hand has a sample, a button changes or an external wrench begins or ends; infinity if
-  /// there is none. Advancing from event to event gives the same result as advancing over several in one call.
+  /// The next time [s] at which a hand has a sample or, once time has begun, a button changes or an external wrench
+  /// begins or ends; infinity if there is none. To advance to each gives the same result as to advance over several.
   double next_event_time() const;
 
   /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; a step also ends at each
@@ -187,14 +187,14 @@ class Simulation {
   /// passes, but pending buttons act. Throws InputError if `t_end` is not finite.
   AdvanceReport advance_to(double t_end, double pause = std::numeric_limits<double>::infinity());
 
-  void reset();  ///< releases all objects, returns them to their start poses and forgets all samples
+  void reset();  ///< releases all objects, returns them to their start poses, forgets all samples; time begins anew
   /// Releases all objects and places the named ones at rest at these poses; unsupported ones then fall. Throws
   /// InputError, and changes nothing, if no movable object has such a name or a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
   /// Releases the object of one hand or, with std::nullopt, of every hand. Returns false if nothing was held.
   bool release(std::optional<std::size_t> hand = std::nullopt);
 
-  // Changes while running: pose and twist of the object do not jump. An impossible one throws InputError, no more.
+  // Changes while running: a held object's pose does not jump, nor its twist, as far as the tool can take it.
   /// Changes the tool in one hand or, with std::nullopt, in every hand. The hand keeps its object, and the new tool
   /// starts without strain. The probe cannot hold an object, so a change to it releases the object.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = std::nullopt);
@@ -203,8 +203,8 @@ class Simulation {
   ChangeReport change(const ForkChange& fork, const DynamicsChange& dynamics = {},
                       std::optional<std::size_t> hand = std::nullopt);
   /// Calibrates the tool of one hand or, with std::nullopt, of every hand to the object that it holds. With
-  /// `calibrate: world` it restores the scene's stiffness instead. Damping ratios are not changed. Throws InputError if
-  /// no fork or spring holds an object.
+  /// `calibrate: world` it restores the scene's stiffness instead. Damping ratios are not changed; three equal ones of
+  /// the law per_dof become one of the law modal. Throws InputError if no fork or spring holds an object.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
   /// Adds, moves or removes an object, or changes its mass or friction; the state of everything else is kept. Added and
   /// moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed one fall. A
@@ -245,8 +245,8 @@ class Simulation {
   /// Saves the whole state: time, hands with their input and tools, objects, contacts, histories of integrators, edits,
   /// and the settings that can be changed while running. Two saves of one state are equal.
   SimulationState save() const;
-  /// Restores a saved state. The future is then bit-identical, whatever has happened in between. Throws InputError, and
-  /// changes nothing, if the state is invalid or differs in objects, number of styluses, contact mode or fork shape.
+  /// Continues bit-identically from a state that was saved with the same scene and settings. Only objects' names,
+  /// number of styluses, contact mode and shape are compared; if they differ, throws InputError and changes nothing.
   void restore(const SimulationState& state);
   /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.
   void copy_state_from(const Simulation& other);

@@ -41,7 +41,7 @@ struct ToolState {
   double stretch = 0.0;      ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();  ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                            ///< angle of torsion about the rod [rad]
-  double load = 0.0;  ///< place in the scene's range of loads, 0 … 1 (the heaviest object); see instruments::LoadRange
+  double load = 0.0;  ///< from 0 to 1, the weight of the heaviest object; logarithmic if weights span over a decade
   RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus
   /// Pose of the handle. It differs from the pose of the stylus after a calibration or a regrasp.
   RigidTransform X_WH = RigidTransform::Identity();

@@ -7,7 +7,7 @@ namespace spring_workbench::validation {
 
 /// Invalid input. The message is one line with place, field, value and rule, e.g. "scene.yaml:4: gravity: invalid value
 /// '-3': expected a number >= 0 m/s²". The place is a file with its line, a service or the like. An argument of a
-/// function of this library has no place. A call that throws it changes nothing.
+/// function of this library has no place. A call that throws it changes nothing, unless it says otherwise.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

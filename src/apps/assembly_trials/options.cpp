@@ -27,7 +27,7 @@ void check_files(const Options& options) {
     for (const auto& b : files) {
       if (&a == &b || a.second.empty() || b.second.empty() || !is_same_file(a.second, b.second)) continue;
       throw validation::InputError(std::string(command_line) + ": " + a.first + ", " + b.first +
-                                   ": cannot be given the same file");
+                                   ": must be different files");
     }
   }
 }

@@ -238,8 +238,9 @@ class BagReader {
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
     validation::refuse(path_, "transform", parent_ + " -> " + child_,
-                       "a transform of the bag, by --parent and --child: " +
-                           (there.empty() ? "it has none" : validation::join(there)));
+                       there.empty()
+                           ? "a bag with transforms"
+                           : "one of those in the bag (--parent and --child choose it): " + validation::join(there));
   }
 
   std::string path_, parent_, child_;
