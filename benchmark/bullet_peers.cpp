@@ -74,9 +74,16 @@ class BulletWorld {
   }
 
  private:
-  btDefaultCollisionConfiguration configuration_;
+  static constexpr int few = 16;  // objects and contacts; the default room, 5 MB, would be cleared for each run
+  static btDefaultCollisionConstructionInfo room() {
+    btDefaultCollisionConstructionInfo info;
+    info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = few;
+    return info;
+  }
+
+  btDefaultCollisionConfiguration configuration_{room()};
   btCollisionDispatcher dispatcher_;
-  btSimpleBroadphase broadphase_;
+  btSimpleBroadphase broadphase_{few};
   btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_;
   btBoxShape shape_;

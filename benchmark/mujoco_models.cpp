@@ -24,9 +24,10 @@ std::string inertial(double mass, const Vector3d& inertia, const Vector3d& p) {
   return out.str();
 }
 
+/// The default room for contacts and constraints, 10 MB that each run would clear, is not needed.
 std::string document(double gravity, const std::string& disabled, const std::string& world, const std::string& rest) {
   return "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" boundmass=\"0\" boundinertia=\"0\"/>"
-         "<option gravity=" +
+         "<size njmax=\"50\" nconmax=\"1\"/><option gravity=" +
          vector(Vector3d(0.0, 0.0, -gravity)) + "><flag contact=\"disable\" " + disabled + "/></option><worldbody>" +
          world + "</worldbody>" + rest + "</mujoco>";
 }

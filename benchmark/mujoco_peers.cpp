@@ -270,6 +270,7 @@ std::vector<RodEngine> mujoco_rods() {
 }
 
 std::vector<MethodPtr> mujoco_peers() {
+  mujoco_files();
   std::vector<MethodPtr> peers;
   peers.push_back(std::make_unique<MujocoForce>(mjINT_EULER));
   peers.push_back(std::make_unique<MujocoForce>(mjINT_RK4));

@@ -11,23 +11,31 @@ constexpr const char* kFile = "model.xml";
 
 mjModel* compiled(const std::string& xml) {
   mju_user_warning = [](const char*) {};  // otherwise MuJoCo writes a log file to the working directory
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
+  mjVFS& files = mujoco_files();
   const int size = static_cast<int>(xml.size());
 #if mjVERSION_HEADER < 313
-  mj_makeEmptyFileVFS(files.get(), kFile, size);
-  std::memcpy(files->filedata[0], xml.data(), xml.size());
+  mj_makeEmptyFileVFS(&files, kFile, size);
+  std::memcpy(files.filedata[0], xml.data(), xml.size());
 #else
-  mj_addBufferVFS(files.get(), kFile, xml.data(), size);
+  mj_addBufferVFS(&files, kFile, xml.data(), size);
 #endif
   std::array<char, 500> error{};
-  mjModel* model = mj_loadXML(kFile, files.get(), error.data(), static_cast<int>(error.size()));
-  mj_deleteVFS(files.get());
+  mjModel* model = mj_loadXML(kFile, &files, error.data(), static_cast<int>(error.size()));
+  mj_deleteFileVFS(&files, kFile);
   if (model == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
   return model;
 }
 
 }  // namespace
+
+mjVFS& mujoco_files() {
+  static const std::unique_ptr<mjVFS> files = [] {
+    std::unique_ptr<mjVFS> empty(new mjVFS);
+    mj_defaultVFS(empty.get());
+    return empty;
+  }();
+  return *files;
+}
 
 MujocoWorld::MujocoWorld(const std::string& xml)
     : model(compiled(xml), &mj_deleteModel), data(mj_makeData(model.get()), &mj_deleteData) {}

@@ -9,6 +9,9 @@
 
 namespace spring_workbench::benchmark {
 
+/// MuJoCo's virtual file system, empty. It is made once, since it clears 2 MB; call this before child processes use it.
+mjVFS& mujoco_files();
+
 /// A compiled model of MuJoCo and its data. For the sources that call MuJoCo alone.
 struct MujocoWorld {
   /// Compiles a model in MJCF. Throws std::runtime_error with MuJoCo's message if it is not valid.

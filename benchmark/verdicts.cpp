@@ -233,8 +233,8 @@ void without_interpolation(std::vector<SceneRows> scenes, std::vector<Verdict>& 
   if (count == 0) return;
   out.push_back({"Comparisons with every peer, from measured settings alone, without run times between two of them",
                  "(not a target)",
-                 "of " + std::to_string(count) + " judged or even ones, " + std::to_string(worse) +
-                     " would end worse for ours and " + std::to_string(better) + " better"});
+                 "compared " + std::to_string(count) + "; worse for ours " + std::to_string(worse) +
+                     "; better for ours " + std::to_string(better)});
 }
 
 void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {

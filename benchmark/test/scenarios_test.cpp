@@ -70,7 +70,12 @@ std::vector<Vector3d> outputs_by_world_rk4(const Scenario& scene, int steps_per_
 }
 
 TEST(Scenarios, HandVelocityAndAccelerationAreDerivativesOfThePose) {
-  for (const Scenario& scene : all_scenes()) {
+  std::vector<Scenario> scenes = all_scenes();
+  for (Scenario scene : all_scenes()) {
+    scene.ramp = kRamp;
+    scenes.push_back(scene);
+  }
+  for (const Scenario& scene : scenes) {
     for (const auto& [state, motion] :
          {std::pair{&hand_state, &hand_motion}, std::pair{&handle_state, &handle_motion}}) {
       for (const double t : {0.0, 0.37, 1.9, 3.3}) {
@@ -84,6 +89,25 @@ TEST(Scenarios, HandVelocityAndAccelerationAreDerivativesOfThePose) {
         EXPECT_LT((a - motion(scene, t).acceleration.a_WT_W).norm(), 1e-7) << scene.name;
         EXPECT_LT((alpha - motion(scene, t).acceleration.alpha_WT_T).norm(), 1e-7) << scene.name;
       }
+    }
+  }
+}
+
+TEST(Scenarios, ASampledHandStartsFromRestAndThenGoesThePathOfTheFunction) {
+  for (const Scenario& known : all_scenes()) {
+    Scenario scene = known;
+    scene.ramp = kRamp;
+    const HandMotion start = hand_motion(scene, 0.0);
+    EXPECT_EQ(start.state.v_WT_W.norm() + start.state.w_WT_T.norm(), 0.0);
+    EXPECT_EQ(start.acceleration.a_WT_W.norm() + start.acceleration.alpha_WT_T.norm(), 0.0);
+    for (const double t : {kRamp, 1.7}) {
+      const HandState there = hand_state(scene, t), then = hand_state(known, t - 0.5 * kRamp);
+      EXPECT_LT((there.p_WT - then.p_WT).norm() + (there.R_WT - then.R_WT).norm(), 1e-14);
+      EXPECT_LT((there.v_WT_W - then.v_WT_W).norm() + (there.w_WT_T - then.w_WT_T).norm(), 1e-13);
+    }
+    const Scenario sampled = with_sampled_hand(known);
+    for (const double t : {0.02, 0.2, 1.0}) {
+      EXPECT_LT((hand_state(sampled, t).p_WT - hand_state(scene, t).p_WT).norm(), 1e-14);
     }
   }
 }

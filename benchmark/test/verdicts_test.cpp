@@ -84,6 +84,66 @@ TEST(Verdicts, CvodeInAnyFormIsTheBestOfThem) {
   EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "CVODE in any form"), kFail);
 }
 
+TEST(Verdicts, EnginesAndCvodeAreJudgedInEverySceneAndOnRods) {
+  for (const char* scene : {"A", "B", "C"}) {
+    Measurements measured;
+    add_line("exponential", 100.0, 1.0, measured.scenes);
+    add_line("cvode_world", 100.0, 19.0, measured.scenes);
+    add_line("ode_erp_cfm", 100.0, 51.0, measured.scenes);
+    for (ErrorRow& row : measured.scenes) row.scene = scene, row.hand = "function";
+    for (const char* at : {"at 1e-06 of the amplitude", "at 0.001 of the largest deflection"}) {
+      EXPECT_EQ(result_of(measured, at, "CVODE in any form"), kFail) << scene;
+      EXPECT_EQ(result_of(measured, at, "the best engine"), kPass) << scene;
+    }
+  }
+  Measurements measured;
+  add_line("exponential", 100.0, 1.0, measured.rods);
+  add_line("solver_cvode_bdf", 100.0, 21.0, measured.rods);
+  for (ErrorRow& row : measured.rods) row.scene = "stiff_6dof", row.shape = "linear", row.hand = "samples";
+  EXPECT_EQ(result_of(measured, "Rod stiff_6dof", "CVODE in any form"), kPass);
+}
+
+TEST(Verdicts, WithTheHandAsAFunctionDop853AndRadauAreJudgedOnSoftForks) {
+  for (const auto& [factor, hand] :
+       {std::pair{1.0, "function"}, std::pair{100.0, "function"}, std::pair{1.0, "samples"}}) {
+    Measurements measured;
+    add_line("exponential", factor, 10.0, measured.scenes);
+    add_line("hand_rk4", factor, 1.0, measured.scenes);
+    add_line("solver_radau", factor, 17.0, measured.scenes);
+    add_line("solver_dop853", factor, 9.0, measured.scenes);
+    for (ErrorRow& row : measured.scenes) row.hand = hand;
+    if (factor == 1.0 && std::string(hand) == "function") {
+      const Verdict verdict = verdict_on(measured, "at 1e-09 of the amplitude", "DOP853 and Radau IIA");
+      EXPECT_EQ(verdict.result, kFail);
+      EXPECT_EQ(verdict.peer, "solver_dop853");
+    } else {
+      EXPECT_THROW(verdict_on(measured, "DOP853 and Radau IIA"), std::runtime_error);
+    }
+  }
+}
+
+TEST(Verdicts, OfSeveralThatAloneReachAnErrorTheFastestIsNamed) {
+  Measurements measured;
+  add_line("exponential", 1.0, 10.0, measured.scenes);
+  for (ErrorRow& row : measured.scenes) row.finite = row.error_over_hand_amplitude > 0.9e-8;
+  add_line("hand_rk4", 1.0, 100.0, measured.scenes);
+  add_line("cvode_world", 1.0, 50.0, measured.scenes);
+  const Verdict verdict = verdict_on(measured, "at 1e-09 of the amplitude", "every peer");
+  EXPECT_EQ(verdict.peer, "cvode_world") << verdict.measured;
+}
+
+TEST(Verdicts, ItIsToldHowManyComparisonsRestOnRunTimesBetweenSettings) {
+  // Ours reaches 1e-6 between two settings, and the other at a setting that costs 1.2 times as much: ours is even, but
+  // its next measured run is the slower.
+  for (const double other : {12.0, 30.0}) {
+    Measurements measured;
+    add_line("exponential", 1.0, 10.0, measured.scenes, 2e4);
+    add_line("hand_rk4", 1.0, other, measured.scenes, 1.0);
+    const std::string told = verdict_on(measured, "from measured settings alone").measured;
+    EXPECT_EQ(told.find("worse for ours 0") == std::string::npos, other == 12.0) << told;
+  }
+}
+
 TEST(Verdicts, AsMuchIsAskedWithALightLoadAsWithAStifferFork) {
   for (const auto& [factor, mass, result] :
        {std::tuple{1.0, 5.0, kPass}, std::tuple{1.0, 0.04, kFail}, std::tuple{100.0, 5.0, kFail}}) {

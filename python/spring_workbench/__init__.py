@@ -9,7 +9,7 @@
 
 SI units, right-handed frames, z up. A pose is a 4 x 4 array that takes coordinates of its frame to world; a quaternion
 is x y z w. Invalid input raises InputError, whose message names the field, what is allowed and what was given; the
-state is then unchanged.
+call has then changed nothing, unless its docstring says otherwise.
 """
 
 _NAMES = [

@@ -1,6 +1,6 @@
 """Compiled part of spring_workbench."""
 
-from typing import Any, Dict, List, Literal, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, List, Literal, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -39,10 +39,10 @@ class SettingDescription:
 class SimulationSettings:
     """Settings of a simulation by key, each checked when it is set; what they must be together is checked by Simulation.
     setting_descriptions() explains each key. Settings cannot be read back: keep the dictionary."""
-    def __init__(self, values: Mapping[str, Any] = ...) -> None:
+    def __init__(self, values: Dict[str, Any] = ...) -> None:
         """values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown
         key, a wrong type or a value that is not allowed."""
-    def update(self, values: Mapping[str, Any]) -> None:
+    def update(self, values: Dict[str, Any]) -> None:
         """Sets these values, all or none. Raises InputError as the constructor does."""
 
 class Scene:
@@ -229,12 +229,13 @@ class ContactState:
 class AdvanceReport:
     """Report on one call of `advance_to`.
 
-    `steps` counts the steps that were taken. An attempt at a step is discarded if its equation was not solved or its
-    error was too large, and the step is repeated as shorter ones; `substeps` counts the discarded attempts. If no
-    shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
-    rigid for the step or, in contact, the object stays in place (`steps_rejected`). If these three, `stops`,
-    `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact, one step may need
-    several integrations of the equation of motion, each over a part of it.
+    `steps` counts the steps that were taken. With a tolerance, or an integrator that is stable at any stiffness, an
+    attempt at a step that does not solve its equation or errs too much (without a tolerance: in energy) is discarded
+    and repeated as shorter ones; `substeps` counts the discarded attempts. Otherwise, or if none succeeds, an L-stable
+    rule takes the step (`steps_fallback`). If that rule fails, too, the fork is rigid for the step or, in contact, the
+    object stays in place (`steps_rejected`). If these three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost`
+    are 0, nothing unusual happened. In contact, one step may need several integrations of the equation of motion, each
+    over a part of it.
 
     An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
     of an error from above, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
@@ -477,7 +478,7 @@ class Simulation:
         object."""
     def release(self, hand: Optional[int] = None) -> bool:
         """Releases the object of a hand or, with None, of every hand. Returns False if nothing was held."""
-    def place(self, poses: Mapping[str, npt.ArrayLike]) -> None:
+    def place(self, poses: Dict[str, npt.ArrayLike]) -> None:
         """Releases all objects and places the named ones at rest. poses: from the name of an object to its pose, shape
         (4, 4). Unsupported objects then fall.
 

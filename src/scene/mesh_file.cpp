@@ -105,9 +105,9 @@ fs::path path_of(const std::string& name, const std::string& folder, const std::
 void check_folder(const fs::path& path, const std::vector<std::string>& roots, const std::string& name,
                   const std::string& where, const std::string& key) {
   if (roots.empty() || is_in_a_root(path, roots) || is_in_a_package(path)) return;
-  validation::refuse(
-      where, key, name,
-      "a file in a ROS package or in one of the folders " + validation::join(roots) + " (scene_roots can name more)");
+  validation::refuse(where, key, name,
+                     "a file in a ROS package or in one of the folders " + validation::join(roots) +
+                         " (more: the parameter scene_roots, or the argument roots)");
 }
 
 }  // namespace

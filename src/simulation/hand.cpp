@@ -214,7 +214,7 @@ void Hand::change_fork(const ForkChange& change, std::string& message) {
   if (change.changes_springs() && probe_) probe_->set_springs(fork_);
   if (change.dofs.empty() || !hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
   if (hold_->set_dofs(maker().possible_dofs(grasp_, grasped_body()), fork_.switch_off_time)) {
-    message += "; the strain of a DOF that was switched off returns to zero in some " +
+    message += "; the strain of a DOF that was switched off returns to zero within about " +
                validation::number_text(7.0 * fork_.switch_off_time) + " s and releases its energy";
   }
 }

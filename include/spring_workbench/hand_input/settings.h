@@ -40,7 +40,7 @@ struct InputSettings {
 struct InputDescription {
   std::string key;            ///< key without "input."
   std::string unit;           ///< SI unit, or "–"
-  std::string allowed;        ///< allowed values, e.g. "> 0"
+  std::string allowed;        ///< allowed values, e.g. "a number > 0"
   std::string default_value;  ///< default value, as text
   std::string meaning;        ///< effect of the setting, in one line
 };

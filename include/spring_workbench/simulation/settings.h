@@ -86,7 +86,7 @@ struct SettingDescription {
   std::string key;            ///< key, e.g. "fork.stiffness.bend"
   std::string type;           ///< type: bool, int, double, string or double list
   std::string unit;           ///< SI unit, or "–"
-  std::string allowed;        ///< allowed values, e.g. "> 0"
+  std::string allowed;        ///< allowed values, e.g. "a number > 0"
   std::string default_value;  ///< default value, as text
   std::string meaning;        ///< effect of the setting, in one line
 };

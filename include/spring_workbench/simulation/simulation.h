@@ -52,12 +52,12 @@ SimulationState parse_state(const std::string& text);
 
 /// Report on one call of Simulation::advance_to(), or on several calls whose reports were added by add().
 ///
-/// `steps` counts the steps that were taken. An attempt at a step is discarded if its equation was not solved or its
-/// error was too large, and the step is repeated as shorter ones; `substeps` counts the discarded attempts. If no
-/// shorter step succeeds, an L-stable rule takes the step (`steps_fallback`). If that rule fails as well, the fork is
-/// rigid for the step or, in contact, the object stays in place (`steps_rejected`; doc/model.md, "Steps that are not
-/// solved"). If these three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are all 0, nothing unusual
-/// happened. In contact, a step may need several integrations, each over a part of it.
+/// `steps` counts the steps that were taken. With a tolerance, or an integrator that is stable at any stiffness, an
+/// attempt at a step that does not solve its equation or errs too much (without a tolerance: in energy) is discarded
+/// and repeated as shorter ones (`substeps`). Otherwise, or if none succeeds, an L-stable rule takes the step
+/// (`steps_fallback`). If that fails, too, the fork is rigid for the step or, in contact, the object stays
+/// (`steps_rejected`; doc/model.md, "Steps that are not solved"). If these three, `stops`, `steps_blocked`,
+/// `steps_unsolved` and `time_lost` are all 0, nothing unusual happened. In contact, a step may take many integrations.
 ///
 /// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
 /// of an error from above, not a rigorous bound (doc/model.md, "Error bound").
@@ -127,9 +127,9 @@ struct ChangeReport {
 ///   object without a button, set `grasp.object`. To begin without a hand, place() objects in the air and advance_to().
 /// - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come
 ///   in any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
-/// - Time: the simulation owns its time and reads no clock. The same calls give the same bits on processors of one kind
-///   (with AVX and FMA, or without), and never NaN. Times are those of the hand's clock, with any origin. World time
-///   runs `settings().hand_time_scale` times as fast; velocities, rates and `settings().dynamics.step` refer to it.
+/// - Time: the simulation owns its time and reads no clock. On processors of one kind (with or without AVX and FMA)
+///   the same calls give bit-identical results, never NaN. Times are those of the hand's clock, with any origin. World
+///   time, which velocities, rates and `settings().dynamics.step` refer to, is `settings().hand_time_scale` times that.
 /// - Lifetimes: the scene is copied. References from const members are valid until the next call of a non-const one. A
 ///   simulation can be moved; to copy it, construct one from the same scene and settings, then copy_state_from().
 /// - Threads: not thread-safe, not even among const members, apart from prepare_edit() and prepare_rewind(). Separate

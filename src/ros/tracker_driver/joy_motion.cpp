@@ -16,8 +16,7 @@ bool is_down(const std::vector<int>& buttons, int number) {
 }
 
 std::array<int, 6> read_axes(const YAML::Node& node, const std::string& where) {
-  const std::vector<double> numbers =
-      config::read_numbers(node, where, "axes", 6, "the numbers of 6 axes, -1 for none");
+  const std::vector<double> numbers = config::read_numbers(node, where, "axes", 6);
   std::array<int, 6> axes{};
   for (std::size_t i = 0; i < 6; ++i) {
     if (!(numbers[i] >= -1.0 && numbers[i] < max_controls && numbers[i] == std::floor(numbers[i]))) {
