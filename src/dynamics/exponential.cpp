@@ -109,7 +109,7 @@ Exponential::Core& Exponential::core(int n) {
   if (n == n_) return *core_;
   n_ = n;
   core_ = math::by_size(
-      n, [](auto size) -> std::unique_ptr<Core> { return std::make_unique<CoreOf<decltype(size)::value>>(); });
+      n, [](auto size) -> std::unique_ptr<Core> { return std::unique_ptr<Core>(new CoreOf<decltype(size)::value>); });
   return *core_;
 }
 

@@ -4,7 +4,7 @@ namespace spring_workbench::exponential {
 
 void ClusterOperator::set_zero(int size) {
   size_ = size;
-  rows_.assign(static_cast<std::size_t>(size * size), math::Pack{});
+  std::fill_n(rows_.begin(), size * size, math::Pack{});
 }
 
 void ClusterOperator::set(int first, double factor, const ClusterFunctions& block) {

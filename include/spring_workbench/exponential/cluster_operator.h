@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "spring_workbench/exponential/cluster_functions.h"
 
@@ -21,7 +21,8 @@ class ClusterOperator {
 
  private:
   int size_ = 0;
-  std::vector<math::Pack> rows_;  ///< takes memory where there are clusters only
+  /// The first size_² are used. Not initialised: without clusters its pages take no memory.
+  std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)> rows_;
 };
 
 }  // namespace spring_workbench::exponential

@@ -98,7 +98,7 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
     status.warn("no samples: the hand stays at rest; is the tracker on, and the sensor in view?");
   if (hand.reacquisition.losses > last.hand.reacquisition.losses) {
     status.warn("the hand was lost");
-    ROS_WARN_STREAM(what << ": no sample for the time input.loss_timeout, so the hand counts as lost");
+    ROS_WARN_STREAM(what << ": no sample for the time input.loss_timeout: the hand was lost");
   }
   if (hand.gate.dropouts > last.hand.gate.dropouts) {
     const std::string complaint = complaint_about_gaps(hand.gate, dropout_after_);

@@ -239,7 +239,7 @@ class BagReader {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
     validation::refuse(path_, "transform", parent_ + " -> " + child_,
                        there.empty()
-                           ? "a bag with transforms"
+                           ? "a transform of the bag, which has none"
                            : "one of those in the bag (--parent and --child choose it): " + validation::join(there));
   }
 
