@@ -9,6 +9,10 @@ namespace spring_workbench::exponential {
 /// Four functions of the clusters of ModalRates, one in each lane, as a matrix.
 class ClusterOperator {
  public:
+  /// Memory for a matrix. Not initialised: without clusters its pages are not used.
+  using Rows = std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)>;
+  /// Keeps the matrix in `rows`, which must outlive this.
+  void keep_in(Rows& rows) { rows_ = rows.data(); }
   /// Number of modes in clusters; 0 in most motions.
   int size() const { return size_; }
   void set_zero(int size);
@@ -21,8 +25,7 @@ class ClusterOperator {
 
  private:
   int size_ = 0;
-  /// The first size_² are used. Not initialised: without clusters its pages take no memory.
-  std::array<math::Pack, static_cast<std::size_t>(ModalRates::max_modes* ModalRates::max_modes)> rows_;
+  math::Pack* rows_ = nullptr;
 };
 
 }  // namespace spring_workbench::exponential

@@ -64,6 +64,13 @@ struct ModalOperators {
   PerNode defect;                      ///< of the residual's defect at each sample, at the nodes
   Operator end_defect;                 ///< of the defect at the sample of each lane, at the end of the step
 
+  ModalOperators() {
+    std::size_t next = 0;
+    each([&](Operator& f) { f.clusters.keep_in(rows_[next++]); });
+  }
+  ModalOperators(const ModalOperators&) = delete;
+  ModalOperators& operator=(const ModalOperators&) = delete;
+
   /// Computes all for steps of `h` [s], unless they are known already: a restored history usually continues with the
   /// same step.
   void compute(double h, const ModalRates& rates) {
@@ -137,6 +144,7 @@ struct ModalOperators {
 
   double h_ = 0.0;
   ModalRates rates_;
+  std::array<ClusterOperator::Rows, 3 * count + 3> rows_;  ///< apart from what every step reads
 };
 
 }  // namespace spring_workbench::exponential
