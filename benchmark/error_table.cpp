@@ -151,7 +151,11 @@ class Line {
   ErrorRow row(double setting) const {
     const bool compared = is_compared(method_.name(), method_.ours());
     const Repetition repetition = compared ? plan_.repetition : Repetition{1, plan_.repetition.seconds};
-    const RunResult run = run_isolated(method_, scene_, setting, repetition, plan_.run_limit);
+    const std::vector<RunResult> runs =
+        run_isolated({[&] { return fastest(repetition, [&] { return method_.run(scene_, setting); }); },
+                      [&] { return method_.run(halfway_, setting_between(setting)); }},
+                     plan_.run_limit);
+    const RunResult &run = runs[0], &between = runs[1];
     ErrorRow row;
     row.scene = scene_.name;
     row.stiffness_factor = scene_.stiffness_factor;
@@ -174,7 +178,6 @@ class Line {
     row.given_up = run.given_up;
     if (run.given_up) row.wall_us_per_simulated_second = 1e6 * plan_.run_limit / scene_.duration;
     if (!run.finite || reference_.outputs.empty()) return row;
-    const RunResult between = run_between(setting);
     row.finite = between.finite;
     if (!row.finite) return row;
     row.position_error = output_error(scene_, reference_, run.outputs);
@@ -186,11 +189,11 @@ class Line {
     return row;
   }
 
-  /// An untimed run with additional outputs halfway between; its steps end there, too, unless they may be longer.
-  RunResult run_between(double setting) const {
+  /// That of an untimed run with additional outputs halfway between: its steps end there, too, unless they may be
+  /// longer.
+  double setting_between(double setting) const {
     const bool is_long = setting > 1.000001 * scene_.output_interval || method_.knob() == Method::Knob::tolerance;
-    const double nearer = is_long ? setting : std::min(setting, halfway_.output_interval);
-    return run_isolated(method_, halfway_, nearer, {}, plan_.run_limit);
+    return is_long ? setting : std::min(setting, halfway_.output_interval);
   }
 
   const Method& method_;

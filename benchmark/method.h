@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -84,9 +85,12 @@ auto fastest(const Repetition& repetition, Run&& run) {
   return best;
 }
 
-/// Calls run() in a child process, so that an engine that aborts, hangs or exhausts memory does not affect the report.
-/// The result is not finite if the child died or took longer than `time_limit` [s]. The caller must have no other
-/// threads.
+/// Calls these functions, one after the other up to the first whose result is not finite, in one child process, so that
+/// an engine that aborts, hangs or exhausts memory does not affect the report. No result is finite if the child died or
+/// took longer than `time_limit` [s]. The caller must have no other threads.
+std::vector<RunResult> run_isolated(const std::vector<std::function<RunResult()>>& runs, double time_limit);
+
+/// The fastest of repeated runs, in a child process.
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
                        double time_limit);
 

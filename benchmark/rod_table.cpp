@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "benchmark/our_methods.h"
@@ -52,44 +53,62 @@ struct Header {
   double wall_seconds;
   long steps, steps_fallback;
   bool finite;
+  std::size_t poses;
 };
 
 using PoseNumbers = Eigen::Matrix<double, 3, 4>;
 
-std::string packed(const RodRun& run) {
-  const Header header{run.wall_seconds, run.steps, run.steps_fallback, run.finite};
-  std::string data(reinterpret_cast<const char*>(&header), sizeof(header));
+void pack(const RodRun& run, std::string& data) {
+  const Header header{run.wall_seconds, run.steps, run.steps_fallback, run.finite, run.X_WO.size()};
+  data.append(reinterpret_cast<const char*>(&header), sizeof(header));
   for (const RigidTransform& X : run.X_WO) {
     const PoseNumbers numbers = X.matrix().topRows<3>();
     data.append(reinterpret_cast<const char*>(numbers.data()), sizeof(double) * 12);
   }
-  return data;
 }
 
-RodRun unpacked(const std::string& data) {
+/// Takes a run from the front of the data.
+RodRun unpack(std::string_view& data) {
   Header header{};
   std::memcpy(&header, data.data(), sizeof(header));
+  data.remove_prefix(sizeof(header));
   RodRun run;
   run.wall_seconds = header.wall_seconds;
   run.steps = header.steps;
   run.steps_fallback = header.steps_fallback;
   run.finite = header.finite;
-  for (std::size_t at = sizeof(header); at < data.size(); at += sizeof(double) * 12) {
+  for (std::size_t i = 0; i < header.poses; ++i) {
     PoseNumbers numbers;
-    std::memcpy(numbers.data(), data.data() + at, sizeof(double) * 12);
+    std::memcpy(numbers.data(), data.data(), sizeof(double) * 12);
+    data.remove_prefix(sizeof(double) * 12);
     run.X_WO.push_back(RigidTransform::Identity());
     run.X_WO.back().matrix().topRows<3>() = numbers;
   }
   return run;
 }
 
-/// Runs in a child process, which is killed after `time_limit` [s].
-template <typename Run>
-RodRun run_in_time(double time_limit, Run&& run) {
-  if (const auto data = validation::run_in_child([&] { return packed(run()); }, {time_limit})) return unpacked(*data);
-  RodRun given_up;
-  given_up.given_up = true;
-  return given_up;
+/// Runs these, one after the other up to the first that is not finite, in a child process, which is killed after
+/// `time_limit` [s].
+std::vector<RodRun> run_in_time(double time_limit, const std::vector<std::function<RodRun()>>& runs) {
+  const auto data = validation::run_in_child(
+      [&] {
+        std::string all;
+        for (const auto& run : runs) {
+          const RodRun result = run();
+          pack(result, all);
+          if (!result.finite) break;
+        }
+        return all;
+      },
+      {time_limit});
+  std::vector<RodRun> results(runs.size());
+  if (data) {
+    std::string_view rest = *data;
+    for (std::size_t i = 0; !rest.empty(); ++i) results[i] = unpack(rest);
+  } else {
+    for (RodRun& result : results) result.given_up = true;
+  }
+  return results;
 }
 
 std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<RodCase>& cases) {
@@ -176,7 +195,9 @@ class Line {
   double time_again(const ErrorRow& row) const {
     constexpr double none = std::numeric_limits<double>::infinity();
     if (!row.finite || !has_compared_times()) return none;
-    const RodRun again = timed({row.step, row.tolerance}, 1);
+    const RodRun again = run_in_time(plan_.tolerance_time_limit, {[&] {
+                                       return timed({row.step, row.tolerance}, 1);
+                                     }})[0];
     return again.finite ? 1e6 * again.wall_seconds / case_.duration : none;
   }
   /// Whether one run of a row is done before all its repetitions should be, so that a disturbance may hit all of them.
@@ -202,11 +223,9 @@ class Line {
   bool is_ours_to_tolerance(const Setting& setting) const { return ours_ && setting.tolerance > 0.0; }
   /// Whether run times on this line are compared with those of other methods, or of steps with those to a tolerance.
   bool has_compared_times() const { return is_compared(method_, ours_); }
-  /// All in a child process.
   RodRun timed(const Setting& setting, int runs) const {
     const Repetition repetition{has_compared_times() ? runs : 1, plan_.repetition.seconds};
-    return run_in_time(plan_.tolerance_time_limit,
-                       [&] { return fastest(repetition, [&] { return run(case_, setting); }); });
+    return fastest(repetition, [&] { return run(case_, setting); });
   }
 
   /// Whether no finer step or tolerance is needed.
@@ -219,7 +238,12 @@ class Line {
   }
 
   ErrorRow row(const Setting& setting) const {
-    const RodRun run = timed(setting, plan_.repetition.runs);
+    // A tolerance of ours refers to the error at the outputs.
+    const bool has_between = !is_ours_to_tolerance(setting);
+    std::vector<std::function<RodRun()>> both{[&] { return timed(setting, plan_.repetition.runs); }};
+    if (has_between) both.emplace_back([&] { return run(with_halfway_outputs(case_), setting); });
+    const std::vector<RodRun> runs = run_in_time(plan_.tolerance_time_limit, both);
+    const RodRun& run = runs.front();
     ErrorRow r;
     r.scene = case_.name;
     r.shape = shape_;
@@ -238,7 +262,8 @@ class Line {
     r.given_up = run.given_up;
     if (run.given_up) r.wall_us_per_simulated_second = 1e6 * plan_.tolerance_time_limit / case_.duration;
     if (!run.finite) return r;
-    const PoseDistance at = largest_distance(run.X_WO, reference_.X_WO), between = distance_between(setting);
+    const PoseDistance at = largest_distance(run.X_WO, reference_.X_WO);
+    const PoseDistance between = has_between ? distance_between(runs.back()) : PoseDistance{};
     r.position_error = at.position;
     r.error_between = between.position;
     r.angle_error = std::max(at.angle, between.angle);
@@ -254,15 +279,10 @@ class Line {
     return r;
   }
 
-  /// Error of an untimed run whose steps also end halfway between the outputs. Not used for our runs to a tolerance,
-  /// which refers to the error at the outputs.
-  PoseDistance distance_between(const Setting& setting) const {
-    if (is_ours_to_tolerance(setting)) return {};
-    const RodCase halfway = with_halfway_outputs(case_);
-    const RodRun between =
-        ours_ ? run(halfway, setting) : run_in_time(plan_.tolerance_time_limit, [&] { return run(halfway, setting); });
+  /// Error of an untimed run whose steps also end halfway between the outputs.
+  PoseDistance distance_between(const RodRun& run) const {
     constexpr double none = std::numeric_limits<double>::infinity();
-    return between.finite ? largest_distance(between.X_WO, reference_.halfway) : PoseDistance{none, none};
+    return run.finite ? largest_distance(run.X_WO, reference_.halfway) : PoseDistance{none, none};
   }
 
   const RodTablePlan& plan_;

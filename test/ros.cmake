@@ -11,6 +11,10 @@ endif()
 foreach(name ${nodes})
   add_rostest(integration/${name}.test)
 endforeach()
+# It compares delays of milliseconds, with a master and without: no other test may cause them.
+if(SPRING_WORKBENCH_FCL_FOUND)
+  set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_integration_master.test PROPERTIES RUN_SERIAL ON)
+endif()
 # Nodes whose wall clocks are set: a clock that is preloaded.
 add_library(shifted_clock SHARED support/shifted_clock.cpp)
 target_link_libraries(shifted_clock ${CMAKE_DL_LIBS})

@@ -42,11 +42,9 @@ double HeldBody::axial_inertia() const {
 }
 
 rod::PerDof HeldBody::damping_of(const rod::PerDof& stiffness, const rod::PerDof& ratio) const {
-  rod::PerDof c;
-  c.stretch = 2.0 * ratio.stretch * std::sqrt(body_.mass * stiffness.stretch);
-  c.bend = 2.0 * ratio.bend * std::sqrt(body_.mass * stiffness.bend);
-  c.torsion = 2.0 * ratio.torsion * std::sqrt(axial_inertia() * stiffness.torsion);
-  return c;
+  const auto c = [](double inertia, double k, double zeta) { return 2.0 * zeta * std::sqrt(inertia * k); };
+  return {c(body_.mass, stiffness.stretch, ratio.stretch), c(body_.mass, stiffness.bend, ratio.bend),
+          c(axial_inertia(), stiffness.torsion, ratio.torsion)};
 }
 
 void HeldBody::set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio) {
@@ -86,8 +84,7 @@ StrainState HeldBody::zero_state() const { return {rod::StrainVector::Zero(size(
 rod::StrainVector HeldBody::stiffness() const { return coordinates_.gather(K_); }
 
 rod::StrainMatrix HeldBody::damping() const {
-  if (modal_) return D_modal_;
-  return rod::StrainMatrix(coordinates_.gather(D_).asDiagonal());
+  return modal_ ? D_modal_ : rod::StrainMatrix(coordinates_.gather(D_).asDiagonal());
 }
 
 void HeldBody::attach(const std::vector<Attached>& couplings) {

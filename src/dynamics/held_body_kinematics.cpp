@@ -68,10 +68,9 @@ bool HeldBody::rechart(StrainState& state) const {
   return true;
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> HeldBody::object_jacobian(
-    double t, const rod::StrainVector& q) const {
+rod::TwistJacobian HeldBody::object_jacobian(double t, const rod::StrainVector& q) const {
   const Kinematics k = kinematics(t, q);
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> J(6, size());
+  rod::TwistJacobian J(6, size());
   for (int i = 0; i < size(); ++i) J.col(i) << k.linear.col(coordinates_[i]), k.angular.col(coordinates_[i]);
   return J;
 }

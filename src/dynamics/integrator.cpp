@@ -105,11 +105,9 @@ QuinticPoint quintic(const StrainState& begin, const rod::StrainVector& a_begin,
   const rod::StrainVector c3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
   const rod::StrainVector c4 = -15.0 * rise + 7.0 * slope - bend;
   const rod::StrainVector c5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
-  QuinticPoint p;
-  p.q = begin.q + u * (h * begin.q_dot + u * (0.5 * h * h * a_begin + u * (c3 + u * (c4 + u * c5))));
-  p.q_dot = begin.q_dot + u * h * a_begin + u * u / h * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5));
-  p.q_ddot = a_begin + u / (h * h) * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5));
-  return p;
+  return {begin.q + u * (h * begin.q_dot + u * (0.5 * h * h * a_begin + u * (c3 + u * (c4 + u * c5)))),
+          begin.q_dot + u * h * a_begin + u * u / h * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)),
+          a_begin + u / (h * h) * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))};
 }
 
 struct StepEnd {

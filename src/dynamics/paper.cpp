@@ -106,12 +106,11 @@ StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle
   version_ = target_.allFinite() ? body.version() : -1;  // otherwise the next search must not start there
 
   const SpringDampers dampers(body, h);
-  const StrainState from = state;
-  const rod::StrainVector candidate = body.path_check() ? cut_back(body, begin, end, from, target_) : target_;
+  const rod::StrainVector candidate = body.path_check() ? cut_back(body, begin, end, state, target_) : target_;
   // Contact acts on the spring-dampers; so does the load on a coordinate without stiffness.
   const Matrix3d R_HW = end.handle.X_WH.linear().transpose();
-  const Wrench contact{R_HW * body.load().force, R_HW * body.load().moment};
-  const rod::StrainVector pushed = body.object_jacobian(t + h, from.q).transpose() * to_vector(contact);
+  const rod::StrainVector pushed = body.object_jacobian(t + h, state.q).transpose() *
+                                   to_vector(Wrench{R_HW * body.load().force, R_HW * body.load().moment});
   const rod::StrainVector free = body.coordinates().gather(deformation.force(rest.q));
   // Errors: one constant load stands for one that changes over the step; and the target's equilibrium is approximate.
   const Vector6d of_step = to_vector(load), first = to_vector(begin.load(body)), last = to_vector(end.load(body));
@@ -126,12 +125,20 @@ StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle
     const bool springs = d.omega_squared > 0.0;
     const double mu = dampers.inertia(i);
     const double pull = (springs ? d.omega_squared * candidate[i] : free[i] / mu) + pushed[i] / mu;
-    state.q[i] = d.step.xx * from.q[i] + d.step.xv * from.q_dot[i] + d.step.xg * pull;
-    state.q_dot[i] = d.step.vx * from.q[i] + d.step.vv * from.q_dot[i] + d.step.vg * pull;
+    d.step.carry(state.q[i], state.q_dot[i]);
+    state.q[i] += d.step.xg * pull;
+    state.q_dot[i] += d.step.vg * pull;
     estimate.q_error[i] = d.step.xg * (springs ? d.omega_squared * target_off(c, 0) : off(c, 0) / mu);
     estimate.q_dot_error[i] = d.step.vg * (springs ? d.omega_squared * target_off(c, 1) : off(c, 1) / mu);
   }
   return estimate;
+}
+
+void Paper::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                                const StrainState& begin, const StrainState& end, StrainState& deviation) {
+  if (body.coupled()) return shared_.propagate_deviation(body, handle, t, h, begin, end, deviation);
+  const SpringDampers dampers(body, h);  // their target does not depend on the state
+  for (int i = 0; i < body.size(); ++i) dampers.of(i).step.carry(deviation.q[i], deviation.q_dot[i]);
 }
 
 Integrator::Response Paper::response(const HeldBody& body, const HandleForcing& handle, double h,

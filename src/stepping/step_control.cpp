@@ -29,7 +29,7 @@ class ErrorLength {
   }
 
  private:
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> J_;
+  rod::TwistJacobian J_;
   double gyration_;
 };
 

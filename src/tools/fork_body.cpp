@@ -148,8 +148,8 @@ void ForkBody::exchange(math::StateArchive& state) {
   load_response_.begin_step(held_.size());
 }
 
-ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
-  Jacobian J = held_.object_jacobian(t, state_.strain.q);
+rod::TwistJacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
+  rod::TwistJacobian J = held_.object_jacobian(t, state_.strain.q);
   for (int i = 0; i < J.cols(); ++i) {
     J.col(i).head<3>() = (R_WH * J.col(i).head<3>()).eval();
     J.col(i).tail<3>() = (R_WH * J.col(i).tail<3>()).eval();

@@ -121,9 +121,8 @@ class ForkBody : public ToolHold {
   /// Returns the strain at which the springs exert `pull_W` on the object with orientation `R_WO`; the current strain,
   /// counted as a fallback, if none is found.
   rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO);
-  using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates>;
-  Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
-  Jacobian jacobian_W(const Matrix3d& R_WH, double t) const;
+  rod::TwistJacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
+  rod::TwistJacobian jacobian_W(const Matrix3d& R_WH, double t) const;
 
   std::size_t index_;
   dynamics::HeldBody held_;

@@ -104,11 +104,9 @@ class HeldBody {
   void set_path_check(PathCheck check) { path_check_ = std::move(check); }  ///< sets the check for the next step
   const PathCheck& path_check() const { return path_check_; }               ///< the check for the next step
 
-  /// Attaches further tools that pull on the body from now on; see Couplings::attach.
-  void attach(const std::vector<Attached>& couplings);
-  /// Detaches couplings; see Couplings::detach.
-  void detach(std::size_t kept) { couplings_.detach(kept); }
-  bool coupled() const { return !couplings_.empty(); }  ///< whether further tools are attached
+  void attach(const std::vector<Attached>& couplings);        ///< attaches further tools; see Couplings::attach
+  void detach(std::size_t kept) { couplings_.detach(kept); }  ///< detaches some; see Couplings::detach
+  bool coupled() const { return !couplings_.empty(); }        ///< whether further tools are attached
   /// Returns the sum over all couplings for a state of the body.
   Couplings::Reading read_couplings(const HandleForcing& handle, const StrainState& state) const;
 
@@ -152,8 +150,7 @@ class HeldBody {
   motion::MotionState object(const HandleForcing& handle, const StrainState& state,
                              const rod::StrainVector* q_ddot = nullptr) const;
   /// Returns the Jacobian of O's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> object_jacobian(
-      double t, const rod::StrainVector& q) const;
+  rod::TwistJacobian object_jacobian(double t, const rod::StrainVector& q) const;
   /// Returns the strain rate at the strain `q` that is closest, in kinetic energy, to a twist of O (world axes).
   rod::StrainVector project_twist(const HandleForcing& handle, const rod::StrainVector& q, const Twist& V_WO_W) const;
 

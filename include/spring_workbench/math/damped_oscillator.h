@@ -7,6 +7,12 @@ namespace spring_workbench::math {
 struct OscillatorStep {
   double xx, xv, xg;
   double vx, vv, vg;
+  /// Carries position and velocity over the time, without g.
+  void carry(double& x, double& v) const {
+    const double x0 = x;
+    x = xx * x0 + xv * v;
+    v = vx * x0 + vv * v;
+  }
 };
 
 /// `alpha` ≥ 0 [1/s] is the damping ratio times ω₀, `omega_squared` ≥ 0 [1/s²], `t` ≥ 0 [s]. Does not divide by zero at

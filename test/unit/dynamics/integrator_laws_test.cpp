@@ -6,6 +6,7 @@
 #include <random>
 
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 #include "support/held_cases.h"
 #include "support/matrix_exponential.h"
 #include "support/named.h"
@@ -165,6 +166,35 @@ TEST_P(EveryIntegrator, EstimatesItsLocalErrorUnderATrackedHandWithinAFactorOfTe
 INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator,
                          testing::ValuesIn(test_support::equation_of_motion_integrator_names()),
                          [](const auto& instance) { return instance.param; });
+
+/// A deviation is carried as the difference of two steps is: to first order, and by `paper`, which is linear, exactly.
+TEST(AnyIntegrator, CarriesADeviationAsTwoStepsDo) {
+  for (const std::string& name : validation::names<IntegratorKind>()) {
+    for (const std::string& shape : test_support::shape_names()) {
+      for (const double zeta : {0.1, 1.0, 3.0}) {
+        std::mt19937 random(3);
+        const Case c = random_case(shape, zeta, 1.0, random);
+        const double h = 0.3 / (1.0 + zeta) / c.omega;
+        const auto integrator = test_support::make_integrator(name), beside = test_support::make_integrator(name);
+        const StrainState begin = carried(*integrator, c, 0.0, h, 5, c.held.zero_state());
+        carried(*beside, c, 0.0, h, 5, c.held.zero_state());
+        StrainState end = begin, deviation = c.held.zero_state();
+        integrator->step(c.held, c.hand, 5 * h, h, end);
+        for (int i = 0; i < c.held.size(); ++i) {
+          deviation.q[i] = 1e-5 * c.held.units()[i];
+          deviation.q_dot[i] = (i % 2 == 0 ? -1e-5 : 1e-5) * c.omega * c.held.units()[i];
+        }
+        StrainState off{begin.q + deviation.q, begin.q_dot + deviation.q_dot};
+        beside->step(c.held, c.hand, 5 * h, h, off);
+        integrator->propagate_deviation(c.held, c.hand, 5 * h, h, begin, end, deviation);
+        const double accuracy = name == "paper" ? 1e-6 : 0.05;
+        const rod::StrainVector q = off.q - end.q, q_dot = off.q_dot - end.q_dot;
+        EXPECT_LT((deviation.q - q).norm(), accuracy * q.norm()) << name << " " << shape << " " << zeta;
+        EXPECT_LT((deviation.q_dot - q_dot).norm(), accuracy * q_dot.norm()) << name << " " << shape << " " << zeta;
+      }
+    }
+  }
+}
 
 /// The equation of a stretch alone is linear: a step from a strain so far off that the differences of one near zero are
 /// lost in its rounding is as much longer as the strain is.
