@@ -150,12 +150,12 @@ class Line {
  private:
   ErrorRow row(double setting) const {
     const bool compared = is_compared(method_.name(), method_.ours());
-    const Repetition repetition = compared ? plan_.repetition : Repetition{1, plan_.repetition.seconds};
+    const Repetition repetition{compared ? plan_.repetition.runs : 1, plan_.repetition.seconds, true};
     const std::vector<RunResult> runs =
-        run_isolated({[&] { return fastest(repetition, [&] { return method_.run(scene_, setting); }); },
-                      [&] { return method_.run(halfway_, setting_between(setting)); }},
+        run_isolated({[&] { return method_.run(halfway_, setting_between(setting)); },
+                      [&] { return fastest(repetition, [&] { return method_.run(scene_, setting); }); }},
                      plan_.run_limit);
-    const RunResult &run = runs[0], &between = runs[1];
+    const RunResult &between = runs[0], &run = runs[1];
     ErrorRow row;
     row.scene = scene_.name;
     row.stiffness_factor = scene_.stiffness_factor;
@@ -178,8 +178,7 @@ class Line {
     row.given_up = run.given_up;
     if (run.given_up) row.wall_us_per_simulated_second = 1e6 * plan_.run_limit / scene_.duration;
     if (!run.finite || reference_.outputs.empty()) return row;
-    row.finite = between.finite;
-    if (!row.finite) return row;
+    row.finite = true;
     row.position_error = output_error(scene_, reference_, run.outputs);
     row.error_between = output_error(halfway_, between_, between.outputs);
     row.error = std::max(row.position_error, row.error_between);

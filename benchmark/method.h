@@ -58,6 +58,7 @@ using MethodPtr = std::unique_ptr<Method>;
 struct Repetition {
   int runs = 1;
   double seconds = 0.0;  ///< [s]
+  bool warm = false;     ///< whether a similar run was made before in the same process
 };
 constexpr double kMaxSeconds = 0.05;
 
@@ -65,14 +66,15 @@ constexpr double kMaxSeconds = 0.05;
 bool wants_another(const Repetition& repetition, int runs, double spent);
 
 /// The first result of `run`, with the shortest of the `wall_seconds` of these repetitions. If several runs are asked
-/// for, a first one that takes less than kColdSeconds does not count: its memory and caches are cold.
+/// for and none was made before, a first one that takes less than kColdSeconds does not count: its memory and caches
+/// are cold.
 constexpr double kColdSeconds = 0.02;
 template <typename Run>
 auto fastest(const Repetition& repetition, Run&& run) {
   auto best = run();
   int runs = 1;
   double spent = best.wall_seconds;
-  if (repetition.runs > 1 && spent < kColdSeconds) {
+  if (repetition.runs > 1 && !repetition.warm && spent < kColdSeconds) {
     runs = 0;
     spent = 0.0;
     best.wall_seconds = std::numeric_limits<double>::infinity();

@@ -195,9 +195,8 @@ class Line {
   double time_again(const ErrorRow& row) const {
     constexpr double none = std::numeric_limits<double>::infinity();
     if (!row.finite || !has_compared_times()) return none;
-    const RodRun again = run_in_time(plan_.tolerance_time_limit, {[&] {
-                                       return timed({row.step, row.tolerance}, 1);
-                                     }})[0];
+    const auto once = [&] { return timed({row.step, row.tolerance}, {1, plan_.repetition.seconds}); };
+    const RodRun again = run_in_time(plan_.tolerance_time_limit, {once})[0];
     return again.finite ? 1e6 * again.wall_seconds / case_.duration : none;
   }
   /// Whether one run of a row is done before all its repetitions should be, so that a disturbance may hit all of them.
@@ -223,8 +222,8 @@ class Line {
   bool is_ours_to_tolerance(const Setting& setting) const { return ours_ && setting.tolerance > 0.0; }
   /// Whether run times on this line are compared with those of other methods, or of steps with those to a tolerance.
   bool has_compared_times() const { return is_compared(method_, ours_); }
-  RodRun timed(const Setting& setting, int runs) const {
-    const Repetition repetition{has_compared_times() ? runs : 1, plan_.repetition.seconds};
+  RodRun timed(const Setting& setting, Repetition repetition) const {
+    if (!has_compared_times()) repetition.runs = 1;
     return fastest(repetition, [&] { return run(case_, setting); });
   }
 
@@ -240,10 +239,12 @@ class Line {
   ErrorRow row(const Setting& setting) const {
     // A tolerance of ours refers to the error at the outputs.
     const bool has_between = !is_ours_to_tolerance(setting);
-    std::vector<std::function<RodRun()>> both{[&] { return timed(setting, plan_.repetition.runs); }};
-    if (has_between) both.emplace_back([&] { return run(with_halfway_outputs(case_), setting); });
-    const std::vector<RodRun> runs = run_in_time(plan_.tolerance_time_limit, both);
-    const RodRun& run = runs.front();
+    std::vector<std::function<RodRun()>> to_run;
+    if (has_between) to_run.emplace_back([&] { return run(with_halfway_outputs(case_), setting); });
+    const Repetition repetition{plan_.repetition.runs, plan_.repetition.seconds, has_between};
+    to_run.emplace_back([&] { return timed(setting, repetition); });
+    const std::vector<RodRun> runs = run_in_time(plan_.tolerance_time_limit, to_run);
+    const RodRun& run = runs.back();
     ErrorRow r;
     r.scene = case_.name;
     r.shape = shape_;
@@ -263,7 +264,7 @@ class Line {
     if (run.given_up) r.wall_us_per_simulated_second = 1e6 * plan_.tolerance_time_limit / case_.duration;
     if (!run.finite) return r;
     const PoseDistance at = largest_distance(run.X_WO, reference_.X_WO);
-    const PoseDistance between = has_between ? distance_between(runs.back()) : PoseDistance{};
+    const PoseDistance between = has_between ? largest_distance(runs.front().X_WO, reference_.halfway) : PoseDistance{};
     r.position_error = at.position;
     r.error_between = between.position;
     r.angle_error = std::max(at.angle, between.angle);
@@ -277,12 +278,6 @@ class Line {
     if (is_ours_to_tolerance(setting))
       r.error_over_tolerance = error_as_length(case_, r.position_error, at.angle) / setting.tolerance;
     return r;
-  }
-
-  /// Error of an untimed run whose steps also end halfway between the outputs.
-  PoseDistance distance_between(const RodRun& run) const {
-    constexpr double none = std::numeric_limits<double>::infinity();
-    return run.finite ? largest_distance(run.X_WO, reference_.halfway) : PoseDistance{none, none};
   }
 
   const RodTablePlan& plan_;
