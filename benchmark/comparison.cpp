@@ -62,6 +62,13 @@ double SceneRows::share_of_deflection(const ErrorTarget& target) const {
   return 0.0;
 }
 
+double SceneRows::length_of(const ErrorTarget& target) const {
+  for (const ErrorRow& row : rows) {
+    if (row.largest_deflection > 0.0 && !row.own_reference) return share_of_deflection(target) * row.largest_deflection;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 double SceneRows::left_by_samples() const {
   for (const ErrorRow& row : rows) {
     if (row.hand == "samples" && row.hand_error > 0.0 && row.largest_deflection > 0.0)

@@ -47,6 +47,8 @@ struct SceneRows {
   }
   /// The target as a fraction of the largest deflection.
   double share_of_deflection(const ErrorTarget& target) const;
+  /// The target as a length [m], in B as an angle [rad]; infinite if the deflection is not known.
+  double length_of(const ErrorTarget& target) const;
   /// What the samples of the hand leave open, as a fraction of the largest deflection; 0 if the hand is a function, or
   /// if it is not known.
   double left_by_samples() const;

@@ -136,13 +136,15 @@ class Line {
 
   /// Measures the next row; returns false if there is none.
   bool advance() {
-    if (rows_.size() == settings_.size()) return false;
+    if (next_ == settings_.size()) return false;
     if (!rows_.empty()) {
       const bool is_coarse = scene_.samples && rows_.back().error_over_largest_deflection > 1e-3;
       const double longest = is_coarse ? plan_.longest_coarse_run : plan_.longest_run;
       if (rows_.back().given_up || line_is_over(rows_, longest)) return false;
     }
-    rows_.push_back(row(settings_[rows_.size()]));
+    rows_.push_back(row(settings_[next_++]));
+    if (is_compared(rows_.back()))
+      find_begin(rows_, scene_.output_interval, [&](int n) { return row(scene_.output_interval / n); });
     return true;
   }
   const std::vector<ErrorRow>& rows() const { return rows_; }
@@ -203,6 +205,7 @@ class Line {
   bool own_ = false;                       ///< whether it is measured against its own limit
   double model_error_ = 0.0;
   std::vector<double> settings_;
+  std::size_t next_ = 0;  ///< of settings_
   std::vector<ErrorRow> rows_;
 };
 
@@ -242,6 +245,23 @@ bool has_levelled_off(const std::vector<ErrorRow>& rows) {
     best = std::min(best, row.error);
   }
   return without_gain >= 3;
+}
+
+void find_begin(std::vector<ErrorRow>& rows, double output_interval, const std::function<ErrorRow(int)>& row) {
+  const auto is_of_use = [](const ErrorRow& r) { return r.finite && r.error_over_largest_deflection < 1.0; };
+  const auto steps_of = [&](const ErrorRow& r) { return static_cast<int>(std::lround(output_interval / r.step)); };
+  if (rows.size() < 2 || rows.back().step == 0.0) return;
+  const std::size_t last = rows.size() - 1;
+  const ErrorRow &before = rows[last - 1], &first = rows[last];
+  if (is_of_use(before) || !is_of_use(first) || (before.finite && before.error < 100.0 * first.error)) return;
+  int fails = steps_of(rows[last - 1]), works = steps_of(rows[last]);
+  while (fails > 0 && 4 * works > 5 * fails && works - fails > 1) {
+    const int middle = (fails + works) / 2;
+    rows.push_back(row(middle));
+    (is_of_use(rows.back()) ? works : fails) = middle;
+  }
+  std::sort(rows.begin() + static_cast<std::ptrdiff_t>(last), rows.end(),
+            [](const ErrorRow& a, const ErrorRow& b) { return a.step > b.step; });
 }
 
 bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {

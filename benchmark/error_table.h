@@ -88,6 +88,12 @@ bool is_compared(const std::string& method, bool ours);
 /// Whether the last three of these `rows` that are finite, finest last, have not reduced the error.
 bool has_levelled_off(const std::vector<ErrorRow>& rows);
 
+/// Where a line of steps becomes stable, more closely than by doublings: if its last row is of use (finite, with an
+/// error below the largest deflection) and the one before is not, nor has an error that order explains (below 100 times
+/// that), adds rows between them, made by `row` for a number of steps per output, by bisection until these numbers
+/// differ by less than a quarter. The rows stay in the order of their steps.
+void find_begin(std::vector<ErrorRow>& rows, double output_interval, const std::function<ErrorRow(int)>& row);
+
 /// Whether a curve with these `rows`, finest last, needs no finer setting: its last run took longer than `longest_run`
 /// [s per simulated second], it has reached the uncertainty of its reference, or it has levelled off with the step. A
 /// tolerance has no effect as long as one step per sample keeps it, so all of them are run.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark/scenarios.h"
+#include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::benchmark {
 
@@ -18,6 +19,8 @@ struct RunResult {
   long steps_fallback = 0;  ///< for our integrators on samples: steps taken by the fallback rule
   bool given_up = false;    ///< whether the run exceeded the time limit
   bool finite = false;      ///< whether it reached the end, finite and within 1000 m or rad
+
+  void exchange(math::StateArchive& state) { state(outputs, wall_seconds, steps_fallback, given_up, finite); }
 };
 
 /// Interface of a method that simulates the scenes: a peer or one of our integrators.
@@ -87,9 +90,7 @@ auto fastest(const Repetition& repetition, Run&& run) {
   return best;
 }
 
-/// Calls these functions, one after the other up to the first whose result is not finite, in one child process, so that
-/// an engine that aborts, hangs or exhausts memory does not affect the report. No result is finite if the child died or
-/// took longer than `time_limit` [s]. The caller must have no other threads.
+/// results_of_child(), none of them finite if the child died or took longer than `time_limit` [s] for each function.
 std::vector<RunResult> run_isolated(const std::vector<std::function<RunResult()>>& runs, double time_limit);
 
 /// The fastest of repeated runs, in a child process.

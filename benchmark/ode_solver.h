@@ -10,7 +10,7 @@ namespace spring_workbench::benchmark {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();  ///< [s]
 
-/// A general solver of y' = f(t, y) that chooses its steps.
+/// A general solver of y' = f(t, y).
 class OdeSolver {
  public:
   /// Computes the rates of the state `y` at `t` into `rate`; returns false if the state is outside the domain of the
@@ -27,6 +27,14 @@ class OdeSolver {
   /// discontinuous there: if `t` is `stop`, the solver restarts. Throws std::runtime_error if the solver fails.
   virtual const double* advance(double t, double stop) = 0;
 };
+
+/// The classical Runge–Kutta method with equal steps of at most `step` [s], up to twelve equations. Tolerance and scale
+/// are not used.
+std::unique_ptr<OdeSolver> make_rk4(int size, double step, OdeSolver::Rates rates);
+
+/// The linearly implicit Euler method with equal steps of at most `step` [s]: one evaluation at the end of a step, and
+/// one solution with the Jacobian of the start of the run, which is found by differences. Up to twelve equations.
+std::unique_ptr<OdeSolver> make_implicit_euler(int size, double step, OdeSolver::Rates rates);
 
 /// Twelve stages of order eight with error estimates of order five and three and dense output of order seven (Dormand
 /// and Prince; Hairer, Nørsett and Wanner, Solving ODEs I, II.5 and II.10), up to twelve equations.

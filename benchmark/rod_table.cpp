@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <map>
-#include <string_view>
 #include <utility>
 
+#include "benchmark/child_runs.h"
 #include "benchmark/our_methods.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/solver_run.h"
 #include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/names.h"
-#include "spring_workbench/validation/run_in_child.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -48,67 +46,12 @@ double error_as_length(const RodCase& one, double position, double angle) {
 
 namespace {
 
-/// Header before the poses.
-struct Header {
-  double wall_seconds;
-  long steps, steps_fallback;
-  bool finite;
-  std::size_t poses;
-};
-
-using PoseNumbers = Eigen::Matrix<double, 3, 4>;
-
-void pack(const RodRun& run, std::string& data) {
-  const Header header{run.wall_seconds, run.steps, run.steps_fallback, run.finite, run.X_WO.size()};
-  data.append(reinterpret_cast<const char*>(&header), sizeof(header));
-  for (const RigidTransform& X : run.X_WO) {
-    const PoseNumbers numbers = X.matrix().topRows<3>();
-    data.append(reinterpret_cast<const char*>(numbers.data()), sizeof(double) * 12);
-  }
-}
-
-/// Takes a run from the front of the data.
-RodRun unpack(std::string_view& data) {
-  Header header{};
-  std::memcpy(&header, data.data(), sizeof(header));
-  data.remove_prefix(sizeof(header));
-  RodRun run;
-  run.wall_seconds = header.wall_seconds;
-  run.steps = header.steps;
-  run.steps_fallback = header.steps_fallback;
-  run.finite = header.finite;
-  for (std::size_t i = 0; i < header.poses; ++i) {
-    PoseNumbers numbers;
-    std::memcpy(numbers.data(), data.data(), sizeof(double) * 12);
-    data.remove_prefix(sizeof(double) * 12);
-    run.X_WO.push_back(RigidTransform::Identity());
-    run.X_WO.back().matrix().topRows<3>() = numbers;
-  }
-  return run;
-}
-
-/// Runs these, one after the other up to the first that is not finite, in a child process, which is killed after
-/// `time_limit` [s].
+/// results_of_child(), all given up if the child died or took longer than `time_limit` [s] for each function.
 std::vector<RodRun> run_in_time(double time_limit, const std::vector<std::function<RodRun()>>& runs) {
-  const auto data = validation::run_in_child(
-      [&] {
-        std::string all;
-        for (const auto& run : runs) {
-          const RodRun result = run();
-          pack(result, all);
-          if (!result.finite) break;
-        }
-        return all;
-      },
-      {time_limit});
-  std::vector<RodRun> results(runs.size());
-  if (data) {
-    std::string_view rest = *data;
-    for (std::size_t i = 0; !rest.empty(); ++i) results[i] = unpack(rest);
-  } else {
-    for (RodRun& result : results) result.given_up = true;
-  }
-  return results;
+  if (auto results = results_of_child(runs, time_limit * static_cast<double>(runs.size()))) return std::move(*results);
+  RodRun given_up;
+  given_up.given_up = true;
+  return std::vector<RodRun>(runs.size(), given_up);
 }
 
 std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<RodCase>& cases) {
@@ -187,6 +130,8 @@ class Line {
     }
     if (next_ == settings_.size()) return false;
     rows_.push_back(row(settings_[next_++]));
+    if (has_compared_times())
+      find_begin(rows_, kOutputInterval, [&](int n) { return row({kOutputInterval / n, 0.0}); });
     return true;
   }
   const std::vector<ErrorRow>& rows() const { return rows_; }

@@ -21,6 +21,8 @@ struct RodRun {
   long steps_fallback = 0;  ///< steps taken by the fallback rule because the integrator's equation was not solved
   bool finite = false;
   bool given_up = false;  ///< whether the run exceeded the time limit
+
+  void exchange(math::StateArchive& state) { state(X_WO, wall_seconds, steps, steps_fallback, finite, given_up); }
 };
 
 /// Converts the run to the result of a method on a scene; empty outputs if it is not finite.

@@ -18,7 +18,10 @@ constexpr double kFarthest = 1000.0;  // m
 
 bool contains(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
 
-std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, OdeSolver::Rates rates) {
+/// `setting`: the step [s] of a method that takes one.
+std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, double setting, OdeSolver::Rates rates) {
+  if (name == "solver_rk4") return make_rk4(size, setting, std::move(rates));
+  if (name == "solver_implicit_euler") return make_implicit_euler(size, setting, std::move(rates));
   if (contains(name, "dop853")) return make_dop853(size, std::move(rates));
   if (contains(name, "radau")) return make_radau(size, std::move(rates));
   if (contains(name, "arkode")) return make_arkode(contains(name, "dirk"), size, std::move(rates));
@@ -130,61 +133,11 @@ std::vector<double> ends_of_steps(const RodCase& one, StepEnds at) {
   return ends;
 }
 
-/// The classical method with equal steps of at most `step` [s] up to a stop; cubic Hermite interpolation between their
-/// ends.
-class RungeKutta4 final : public OdeSolver {
- public:
-  RungeKutta4(int size, double step, Rates rates) : rates_(std::move(rates)), step_(step), y_(size) {}
-
-  void begin(double t, const std::vector<double>& y, double, const std::vector<double>&) override {
-    t_ = before_ = t;
-    y_ = Eigen::Map<const Eigen::VectorXd>(y.data(), y_.size());
-    rate_known_ = false;
-  }
-  const double* advance(double t, double stop) override {
-    while (t_ < t - kSameTime)
-      step(stop < kNever ? (stop - t_) / std::ceil((stop - t_) / step_ * (1.0 - 1e-9)) : step_);
-    if (t == stop) rate_known_ = false;  // it may jump
-    if (t_ < t + kSameTime) return y_.data();
-    find_rate();
-    const double h = t_ - before_, u = (t - before_) / h, v = 1.0 - u;
-    output_ = v * from_ + u * y_ + u * v * (v * (h * from_rate_ - (y_ - from_)) - u * (h * rate_ - (y_ - from_)));
-    return output_.data();
-  }
-
- private:
-  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
-  void find_rate() {
-    if (!rate_known_) rate_ = stage(t_, y_);
-    rate_known_ = true;
-  }
-  void step(double h) {
-    find_rate();
-    const State k2 = stage(t_ + 0.5 * h, y_ + 0.5 * h * rate_), k3 = stage(t_ + 0.5 * h, y_ + 0.5 * h * k2),
-                k4 = stage(t_ + h, y_ + h * k3);
-    from_ = y_;
-    from_rate_ = rate_;
-    before_ = t_;
-    y_ += h / 6.0 * (rate_ + 2.0 * (k2 + k3) + k4);
-    t_ += h;
-    rate_known_ = false;
-  }
-  State stage(double t, const State& y) const {
-    State rate(y.size());
-    if (!y.allFinite() || !rates_(t, y.data(), rate.data())) throw std::runtime_error("RK4 has left the range");
-    return rate;
-  }
-
-  Rates rates_;
-  double step_, t_ = 0.0, before_ = 0.0;
-  State y_, rate_, from_, from_rate_, output_;
-  bool rate_known_ = false;  ///< whether rate_ is that at t_
-};
-
 }  // namespace
 
 const std::vector<std::string>& solver_names() {
   static const std::vector<std::string> names = {"solver_rk4",
+                                                 "solver_implicit_euler",
                                                  "solver_dop853",
                                                  "solver_radau",
                                                  "solver_cvode_bdf",
@@ -203,7 +156,7 @@ bool runs_through(const std::string& solver) {
   return solver == "solver_cvode_bdf" || solver == "solver_cvode_adams" || contains(solver, "_through");
 }
 
-bool takes_step(const std::string& solver) { return solver == "solver_rk4"; }
+bool takes_step(const std::string& solver) { return solver == "solver_rk4" || solver == "solver_implicit_euler"; }
 
 bool is_for_samples(const std::string& solver) {
   return contains(solver, "_restarted") || contains(solver, "_through");
@@ -220,8 +173,7 @@ RodRun run_solver(const RodCase& one, const std::string& shape, const std::strin
   const int size = 2 * equations.body().size();
   const bool by_segments = function == nullptr, stops = by_segments && !runs_through(name);
   const OdeSolver::Rates rates = rates_of(equations, by_segments && !stops);
-  const std::unique_ptr<OdeSolver> solver =
-      takes_step(name) ? std::make_unique<RungeKutta4>(size, setting, rates) : make_solver(name, size, rates);
+  const std::unique_ptr<OdeSolver> solver = make_solver(name, size, setting, rates);
   const std::vector<double> start(static_cast<std::size_t>(size), 0.0), scale = scale_of(one, equations.body());
   const std::vector<double> times = output_times(one), stations = stops ? step_ends(one) : times;
   const std::vector<double> ends = stops ? ends_of_steps(one, step_ends_at) : std::vector<double>{kNever};

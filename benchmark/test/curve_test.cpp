@@ -94,6 +94,31 @@ TEST(ErrorTable, ALineEndsAtItsFloorAtItsReferenceOrWhenItTakesTooLong) {
   EXPECT_FALSE(line_is_over({row("unstable", 0.0, 0.0, false)}, 1.0));
 }
 
+/// A method that works from `limit` steps per output on has its first row within a quarter of that, wherever it is.
+TEST(ErrorTable, ALineBeginsWithinAQuarterOfItsFirstStepOfUse) {
+  for (int limit = 2; limit <= 300; limit += limit / 8 + 1) {
+    for (const bool finite : {false, true}) {  // failed runs are not finite, or have an error above the deflection
+      const auto made = [&](int n) {
+        const bool works = n >= limit;
+        ErrorRow r = row("explicit", 1.0, works ? 1e-3 : 2.0, works || finite);
+        r.error_over_largest_deflection = r.error;
+        r.step = 0.02 / n;
+        return r;
+      };
+      std::vector<ErrorRow> rows;
+      for (int n = 1; n < 2 * limit; n *= 2) {
+        rows.push_back(made(n));
+        find_begin(rows, 0.02, made);
+      }
+      const auto first = std::find_if(rows.begin(), rows.end(), [](const ErrorRow& r) { return r.error < 1.0; });
+      ASSERT_NE(first, rows.end());
+      EXPECT_LE(0.02 / first->step, std::max(1.25 * limit, limit + 0.5)) << limit;
+      EXPECT_LE(rows.size(), 13U) << limit;
+      for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_LT(rows[i].step, rows[i - 1].step) << limit;
+    }
+  }
+}
+
 TEST(ErrorTable, MethodsTakeTurnsSettingBySettingAndSoDoTheirRowsWhenTheyAreTimedAgain) {
   std::string order;
   std::vector<ErrorRow> rows;

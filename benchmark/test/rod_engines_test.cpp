@@ -266,8 +266,8 @@ TEST(RodEngines, HaveTheirLinesInTheTableWhereNoDofIsOffAndWhatIsLostIsARow) {
   }
   EXPECT_EQ(rows.size(), engines().size());
   for (const RodEngine& engine : engines()) {
-    EXPECT_EQ(rows[engine.name], 2) << engine.name;
-    EXPECT_EQ(finite[engine.name], engine.when == When::end_of_step ? 2 : 0) << engine.name;
+    EXPECT_GE(rows[engine.name], 2) << engine.name;  // more where its line begins between the two
+    EXPECT_EQ(finite[engine.name], engine.when == When::end_of_step ? rows[engine.name] : 0) << engine.name;
   }
 }
 

@@ -215,7 +215,7 @@ TEST(RodTable, WhatIsComparedIsTheLargestErrorOfPositionAngleAndHalfWay) {
       EXPECT_GE(row.error_between, row.position_error * (1.0 - 1e-6)) << row.method;
     }
   }
-  EXPECT_EQ(methods.size(), validation::names<dynamics::IntegratorKind>().size() + 12U);
+  EXPECT_EQ(methods.size(), validation::names<dynamics::IntegratorKind>().size() + 13U);
 }
 
 TEST(RodTable, TheFarthestPointIsACornerOfTheBox) {

@@ -408,6 +408,49 @@ TEST(Verdicts, WhoIsNotComparedIsNamed) {
   EXPECT_EQ(told("at 0.001 of the largest deflection").find("not compared"), std::string::npos);
 }
 
+TEST(Verdicts, WhoIsNotComparedAtEveryErrorIsNamed) {
+  Measurements measured;
+  add_line("exponential", 1.0, 10.0, measured.scenes);
+  add_line("hand_rk4", 1.0, 100.0, measured.scenes);
+  add_line("bullet_spring2", 1.0, 1.0, measured.scenes);
+  for (ErrorRow& row : measured.scenes) {
+    row.hand = "samples";
+    row.own_reference = row.method == "bullet_spring2";
+    row.reference_uncertainty = row.own_reference ? kDeflection : 0.0;
+  }
+  const Verdict verdict = verdict_on(measured, "at every error");
+  EXPECT_EQ(verdict.result, kPass);
+  EXPECT_NE(verdict.measured.find("known well enough: bullet_spring2"), std::string::npos) << verdict.measured;
+}
+
+TEST(Verdicts, NothingIsJudgedAtErrorsThatAreRounding) {
+  for (const double deflection : {2e-10, 2e-11}) {  // a thousandth: 2e-13 and 2e-14 m
+    Measurements measured;
+    add_line("exponential", 1.0, 10.0, measured.scenes);
+    add_line("hand_rk4", 1.0, 100.0, measured.scenes);
+    for (ErrorRow& row : measured.scenes) {
+      row.hand = "samples";
+      row.error *= deflection / kDeflection;
+      row.largest_deflection = deflection;
+    }
+    const bool fine = deflection < 1e-10;
+    EXPECT_EQ(result_of(measured, "at 0.001 of the largest deflection", "every peer"), fine ? kNone : kPass);
+    const Verdict every = verdict_on(measured, "at every error");
+    EXPECT_EQ(every.measured.find("poses are rounded") != std::string::npos, fine) << every.measured;
+  }
+}
+
+TEST(Verdicts, TheTorsionSpringIsStiffFromItsNominalStiffnessOn) {
+  for (const auto& [scene, factor, stiff] : {std::tuple{"B", 1.0, true}, std::tuple{"B", 0.01, false},
+                                             std::tuple{"C", 1.0, false}, std::tuple{"C", 100.0, true}}) {
+    Measurements measured;
+    add_line("exponential", factor, 1.0, measured.scenes);
+    add_line("cvode_world", factor, 19.0, measured.scenes);
+    for (ErrorRow& row : measured.scenes) row.scene = scene;
+    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "CVODE in any form"), stiff ? kFail : kPass) << scene;
+  }
+}
+
 TEST(Verdicts, WherePeersNeverArriveNothingIsJudged) {
   for (const bool arrives : {false, true}) {
     Measurements measured;
