@@ -273,8 +273,8 @@ void repeatability(const Measurements& m, std::vector<Verdict>& out) {
   std::sort(ratios.begin(), ratios.end());
   const auto beyond = std::distance(std::upper_bound(ratios.begin(), ratios.end(), kRepeatable), ratios.end());
   Verdict verdict{"Run times of a method and setting, the slower round over the faster", "(not a target)",
-                  "median " + text(ratios[ratios.size() / 2]) + ", 95 % below " +
-                      text(ratios[ratios.size() * 95 / 100]) + ", most " + text(ratios.back()) + "; more than " +
+                  "median " + text(ratios[ratios.size() / 2]) + "; 95 % below " +
+                      text(ratios[ratios.size() * 95 / 100]) + "; most " + text(ratios.back()) + "; more than " +
                       text(kRepeatable) + " in " +
                       text(100.0 * static_cast<double>(beyond) / static_cast<double>(ratios.size())) + " % of " +
                       std::to_string(ratios.size())};

@@ -39,7 +39,7 @@ OURS = ["#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#8c564b", "#e377c2", "#17be
 PEERS = ["#ff7f0e", "#7f7f7f", "#2ca02c", "#1f77b4", "#9467bd", "#8c564b", "#17becf", "#bcbd22"]
 DEFAULT = "exponential"
 PAPER = "paper"
-MARKERS = "s^vD<>pPX*hd"
+MARKERS = "s^vD<>pPX*hdH8"
 
 def read(path):
     with open(path, encoding="utf-8", newline="") as file:
@@ -278,6 +278,7 @@ BRIEF = {  # the lines of `brief` that are named: colour, the point that bears t
     "solver_cvode_bdf": ("CVODE", "#9467bd", 0, (2, 6)),
     "solver_radau": ("Radau", "#8c8c00", -1, (6, -5)),
     "solver_rk4": ("RK4", "#e07000", 0, (-28, -16)),
+    "solver_implicit_euler": ("Euler", "#1f77b4", 0, (-6, -19)),
     ENGINES: ("engines", "#2ca02c", -1, (4, 4)),
     "stop": ("ours: stop", OURS[0], 0, (-10, -18)),
     "dynamic": ("ours: dynamic", OURS[0], -1, (-62, -26)),
@@ -310,7 +311,8 @@ def brief_panel(axes, lines, **settings):
             look.update(color=colour, marker="o", markersize=5, linestyle=":" if method == PAPER else "-")
             draw_line(axes, line, **look)
             place = dict(xytext=shift, textcoords="offset points", annotation_clip=True)
-            axes.annotate(name, line[end], color=colour, weight="bold" if ours else "normal", fontsize=13, **place)
+            named = [point for point in line if point[1] < 1.0] or line  # not where it is unstable
+            axes.annotate(name, named[end], color=colour, weight="bold" if ours else "normal", fontsize=13, **place)
     log_axes(axes, **settings)
 
 

@@ -340,7 +340,7 @@ TEST(Verdicts, HowMuchTheTwoRoundsDifferIsTold) {
   }
   measured.scenes.emplace_back();  // measured once
   const std::string told = verdict_on(measured, "the slower round over the faster").measured;
-  EXPECT_EQ(told.rfind("median 1.25, ", 0), 0U) << told;
+  EXPECT_EQ(told.rfind("median 1.25; ", 0), 0U) << told;
   EXPECT_NE(told.find("most 4; more than 1.6 in "), std::string::npos) << told;
   EXPECT_NE(told.find(" % of " + std::to_string(rows)), std::string::npos) << told;
 }
