@@ -34,7 +34,8 @@ def main(default, *others):
                 if first.get(setting):
                     ratios[setting[SETTING.index("method")]][name].append(time / first[setting])
         for method, of_build in ratios.items():
-            medians = [f"{statistics.median(of_build[name]):.3g}" for name in names]
+            # A build may share no setting with the first: some lines begin where they become stable.
+            medians = [f"{statistics.median(of_build[name]):.3g}" if of_build[name] else "" for name in names]
             print(",".join([table, method, str(min(len(of_build[name]) for name in names)), *medians]))
 
 

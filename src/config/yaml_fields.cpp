@@ -1,5 +1,7 @@
 #include "spring_workbench/config/yaml_fields.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -146,6 +148,28 @@ void check_extent(const YAML::Node& node, const std::string& path, int depth, lo
   }
 }
 
+/// Takes no note of what a document contains.
+class Unread final : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// Not by YAML::LoadAll(), which finds documents without end in some malformed files (a comma that begins a line).
+bool has_more_than_one_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Unread unread;
+  return parser.HandleNextDocument(unread) && parser.HandleNextDocument(unread);
+}
+
 }  // namespace
 
 YAML::Node load_yaml_file(const std::string& path) {
@@ -156,13 +180,12 @@ YAML::Node load_yaml_file(const std::string& path) {
   if (file.bad() || text.fail())
     validation::refuse("", path, std::string("a readable YAML file (") + std::strerror(errno) + ")");
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
-    if (documents.size() > 1)
-      validation::refuse(path, "documents", "one in a file, got " + std::to_string(documents.size()));
-    if (documents.empty() || documents.front().IsNull()) return YAML::Node(YAML::NodeType::Map);
+    if (has_more_than_one_document(text.str())) validation::refuse(path, "documents", "one in a file, got more");
+    const YAML::Node document = YAML::Load(text.str());
+    if (document.IsNull()) return YAML::Node(YAML::NodeType::Map);
     long values = 0;
-    check_extent(documents.front(), path, 0, values);
-    return documents.front();
+    check_extent(document, path, 0, values);
+    return document;
   } catch (const YAML::Exception& e) {
     throw validation::InputError(path + ":" + std::to_string(e.mark.line + 1) +
                                  ": not YAML: " + validation::one_line(e.msg));
