@@ -16,9 +16,7 @@ double end_of_line(const std::vector<ErrorRow>& rows, const std::string& method)
   std::vector<ErrorRow> line;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(line),
                [&](const ErrorRow& row) { return row.method == method; });
-  for (const ErrorRow& row : line) {
-    if (row.given_up) return row.wall_us_per_simulated_second;
-  }
+  if (!line.empty() && line.back().given_up) return line.back().wall_us_per_simulated_second;
   const bool is_known = line.empty() || !line.back().finite || has_levelled_off(line);
   return is_known ? std::numeric_limits<double>::infinity() : line.back().wall_us_per_simulated_second;
 }
