@@ -27,7 +27,7 @@ std::optional<std::vector<Result>> results_of_child(const std::vector<std::funct
         }
         math::StateArchive archive;
         archive(results);
-        const Words& words = archive.taken();
+        const Words& words = archive.words();
         return std::string(reinterpret_cast<const char*>(words.data()), sizeof(Words::value_type) * words.size());
       },
       {time_limit});

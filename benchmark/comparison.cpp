@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kOurs = "exponential";
 
-/// Computes Pair::peer_beyond, for errors that the curve of `method` does not reach.
+/// Computes Pair::baseline_beyond, for errors that the curve of `method` does not reach.
 double end_of_line(const std::vector<ErrorRow>& rows, const std::string& method) {
   std::vector<ErrorRow> line;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(line),
@@ -44,9 +44,9 @@ std::string ErrorTarget::text() const {
 }
 
 std::optional<double> Pair::ratio() const {
-  if (ours && peer_time) return *peer_time / *ours;
-  if (ours) return peer_beyond / *ours;
-  if (peer_time) return 0.0;
+  if (ours && baseline_time) return *baseline_time / *ours;
+  if (ours) return baseline_beyond / *ours;
+  if (baseline_time) return 0.0;
   return std::nullopt;
 }
 
@@ -92,7 +92,7 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
   const std::vector<CurvePoint> ours = line_of(kOurs);
   std::vector<Pair> pairs;
   for (const ErrorRow& row : rows) {
-    const auto same = [&](const Pair& pair) { return pair.peer == row.method; };
+    const auto same = [&](const Pair& pair) { return pair.baseline == row.method; };
     if (row.ours || !wanted(row.method) || std::any_of(pairs.begin(), pairs.end(), same)) continue;
     if (!is_resolved(rows, row.method, target)) continue;
     const std::vector<CurvePoint> line = line_of(row.method);
@@ -103,7 +103,7 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     const auto rank = [](const Pair& p) {
       constexpr double none = std::numeric_limits<double>::infinity();
-      return std::tuple(!p.ratio(), p.ratio().value_or(none), p.peer_time.value_or(none));
+      return std::tuple(!p.ratio(), p.ratio().value_or(none), p.baseline_time.value_or(none));
     };
     return rank(a) < rank(b);
   });

@@ -24,15 +24,16 @@ struct ErrorTarget {
 /// error of the other's curve, if that is smaller; or our smallest error, if ours was not measured down to the target;
 /// but none below what the reference resolves.
 struct Pair {
-  std::string peer;
-  double error = 0.0;                     ///< error at which they are compared, in the target's measure
-  std::optional<double> ours, peer_time;  ///< [µs per simulated second]; none if the error is not reached
-  /// Lower bound of the peer's run time if it does not reach the error, but its curve has not levelled off where it
-  /// ended (time limit or finest setting) [µs per simulated second]; infinite if it has, or if the peer failed there.
-  double peer_beyond = 0.0;
+  std::string baseline;
+  double error = 0.0;                         ///< error at which they are compared, in the target's measure
+  std::optional<double> ours, baseline_time;  ///< [µs per simulated second]; none if the error is not reached
+  /// Lower bound of the baseline's run time if it does not reach the error, but its curve has not levelled off where it
+  /// ended (time limit or finest setting) [µs per simulated second]; infinite if it has, or if the baseline failed
+  /// there.
+  double baseline_beyond = 0.0;
 
-  /// Ratio of the peer's run time to ours, or a lower bound if its curve ended before. Infinite if only ours reaches
-  /// the error, 0 if only the peer does, nothing if neither does.
+  /// Ratio of the baseline's run time to ours, or a lower bound if its curve ended before. Infinite if only ours
+  /// reaches the error, 0 if only the baseline does, nothing if neither does.
   std::optional<double> ratio() const;
 };
 

@@ -73,7 +73,7 @@ void each_field(ErrorRow& r, Fields& fields) {
          r.other_wall_us);
 }
 
-/// Title of a row for tables and verdicts: scene, stiffness, mass and how the hand is known.
+/// Title of a row for tables and checks: scene, stiffness, mass and how the hand is known.
 std::string title_of(const ErrorRow& row);
 
 /// The limit to which a method converges, by Richardson extrapolation of the terms in h and h² from three runs with
@@ -81,7 +81,7 @@ std::string title_of(const ErrorRow& row);
 /// all three are repeated with smaller steps, down to an eighth; if that is not enough, the outputs are empty.
 ReferenceSolution own_solution(const Method& method, const Scenario& scene, int steps, double time_limit);
 
-/// Whether the row's run time is used in comparisons: for every peer and for our default integrator.
+/// Whether the row's run time is used in comparisons: for every baseline and for our default integrator.
 bool is_compared(const ErrorRow& row);
 bool is_compared(const std::string& method, bool ours);
 

@@ -23,7 +23,7 @@ struct RunResult {
   void exchange(math::StateArchive& state) { state(outputs, wall_seconds, steps_fallback, given_up, finite); }
 };
 
-/// Interface of a method that simulates the scenes: a peer or one of our integrators.
+/// Interface of a method that simulates the scenes: a baseline or one of our integrators.
 class Method {
  public:
   enum class Knob { step, tolerance };

@@ -30,7 +30,8 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   }
   for (int n = 1; n <= (quick ? 16 : 1024); n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
-  for (int digits = 0; digits <= 12; digits += quick ? 4 : 1) plan.peer_tolerances.push_back(std::pow(10.0, -digits));
+  for (int digits = 0; digits <= 12; digits += quick ? 4 : 1)
+    plan.baseline_tolerances.push_back(std::pow(10.0, -digits));
   plan.longest_run = quick ? 0.002 : 0.01;
   // Engines are to be fifty times slower than ours, which take up to 1 ms to a thousandth of the deflection.
   plan.longest_coarse_run = quick ? 0.002 : 0.02;
@@ -90,7 +91,7 @@ RodReference own_limit(const RodCase& one, const std::string& shape, const std::
 }
 
 /// Whether a case and shape is also run with general methods: for the default shape, or for that of a recording.
-bool has_peers(const RodCase& one, const std::string& shape) {
+bool has_baselines(const RodCase& one, const std::string& shape) {
   return shape == validation::name_of(rod::ForkSettings().shape) || !one.recorded.empty();
 }
 
@@ -118,7 +119,7 @@ class Line {
     }
     for (const double tolerance : ours ? plan.tolerances : std::vector<double>{}) settings_.push_back({0.0, tolerance});
     if (ours || by_step) return;
-    for (const double tolerance : plan.peer_tolerances) settings_.push_back({0.0, tolerance});
+    for (const double tolerance : plan.baseline_tolerances) settings_.push_back({0.0, tolerance});
   }
 
   /// Measures the next row; returns false if there is none.
@@ -252,7 +253,7 @@ std::vector<Line> lines_of(const RodTablePlan& plan, const std::vector<RodEngine
   std::vector<Line> lines;
   for (const std::string& integrator : validation::names<dynamics::IntegratorKind>())
     lines.emplace_back(plan, one, shape, reference, integrator, true);
-  if (!has_peers(one, shape)) return lines;
+  if (!has_baselines(one, shape)) return lines;
   for (const std::string& solver : solver_names()) lines.emplace_back(plan, one, shape, reference, solver, false);
   if (!RodForce::can_push(one, shape)) return lines;
   for (const RodEngine& engine : engines) lines.emplace_back(plan, one, shape, reference, engine.name, false, &engine);

@@ -11,14 +11,14 @@ namespace spring_workbench::benchmark {
 /// What the table of rod cases covers.
 struct RodTablePlan {
   std::vector<RodCase> cases;
-  std::vector<int> steps_per_output;    ///< largest steps of 0.02 s divided by these; a step also ends at every sample
-  std::vector<double> tolerances;       ///< [m]; for integrators that choose their steps
-  std::vector<double> peer_tolerances;  ///< for general methods
-  double longest_run = 0.025;           ///< see ErrorTablePlan [s per simulated second]
-  double longest_coarse_run = 0.025;    ///< the same for runs that are compared, with errors above 1e-3 of the
-                                        ///< largest deflection [s per simulated second]
-  double longest_engine_run = 0.025;    ///< that of engines
-  double tolerance_time_limit = 1.0;    ///< a longer run to a tolerance is given up, and so are finer ones [s]
+  std::vector<int> steps_per_output;  ///< largest steps of 0.02 s divided by these; a step also ends at every sample
+  std::vector<double> tolerances;     ///< [m]; for integrators that choose their steps
+  std::vector<double> baseline_tolerances;  ///< for general methods
+  double longest_run = 0.025;               ///< see ErrorTablePlan [s per simulated second]
+  double longest_coarse_run = 0.025;        ///< the same for runs that are compared, with errors above 1e-3 of the
+                                            ///< largest deflection [s per simulated second]
+  double longest_engine_run = 0.025;        ///< that of engines
+  double tolerance_time_limit = 1.0;        ///< a longer run to a tolerance is given up, and so are finer ones [s]
   Repetition repetition;
 };
 

@@ -52,7 +52,7 @@ class CellRun {
   /// Returns false if there is no point in continuing.
   bool advance(double t) {
     const simulation::AdvanceReport report = simulation_.advance_to(t);
-    outcome_.refused += report.steps_rejected;
+    outcome_.rejected += report.steps_rejected;
     outcome_.steps += static_cast<int>(report.steps);
     outcome_.stops += report.stops;
     outcome_.fallback += report.steps_fallback;
@@ -128,7 +128,7 @@ void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRo
   row.energy_kept += outcome.energy_kept();
   row.energy_judged += outcome.energy_judged;
   row.within_rounding += outcome.energy_within_rounding();
-  row.none_refused += outcome.refused == 0;
+  row.none_rejected += outcome.rejected == 0;
   row.held += outcome.held();
   row.on_its_own += outcome.held_on_its_own();
 }
@@ -148,7 +148,7 @@ void add(const StabilityRow& row, StabilityRow& sum) {
   sum.energy_judged += row.energy_judged;
   sum.within_rounding += row.within_rounding;
   sum.energy_kept += row.energy_kept;
-  sum.none_refused += row.none_refused;
+  sum.none_rejected += row.none_rejected;
   sum.held += row.held;
   sum.cannot_fail += row.cannot_fail;
   sum.real_time += row.real_time;
@@ -194,7 +194,7 @@ StabilityMap map_of_cells(const StabilityPlan& plan, const std::string& integrat
 
 bool worse(const StabilityOutcome& a, const StabilityOutcome& b) {
   const auto badness = [](const StabilityOutcome& o) {
-    return std::tuple(!o.finite, !o.bounded, !o.energy_kept(), o.energy_kept() ? 0.0 : o.energy_growth, o.refused);
+    return std::tuple(!o.finite, !o.bounded, !o.energy_kept(), o.energy_kept() ? 0.0 : o.energy_growth, o.rejected);
   };
   return badness(a) > badness(b);
 }
@@ -350,13 +350,14 @@ StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
 std::string stability_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_judged,energy_kept,"
-         "none_refused,"
-         "held,cannot_fail,real_time,three_times,on_its_own,turning,steps,substeps,stops,steps_fallback,fallback_share,"
+         "none_rejected,"
+         "passed,cannot_fail,real_time,three_times,on_its_own,turning,steps,substeps,stops,steps_fallback,fallback_"
+         "share,"
          "energy_growth,energy_estimated,within_rounding\n";
   for (const StabilityRow& row : map.rows) {
     out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step
         << ',' << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ','
-        << row.energy_judged << ',' << row.energy_kept << ',' << row.none_refused << ',' << row.held << ','
+        << row.energy_judged << ',' << row.energy_kept << ',' << row.none_rejected << ',' << row.held << ','
         << row.cannot_fail << ',' << row.real_time << ',' << row.three_times << ',' << row.on_its_own << ','
         << row.turning << ',' << row.steps << ',' << row.substeps << ',' << row.stops << ',' << row.fallback << ','
         << (row.steps > 0.0 ? row.fallback / row.steps : 0.0) << ',' << row.energy_growth << ',' << row.energy_estimated
@@ -368,7 +369,7 @@ std::string stability_csv(const StabilityMap& map) {
 std::string failures_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,tail,seconds,finite,bounded,"
-         "energy_judged,energy_growth,energy_whole_growth,energy_estimated,steps_refused,steps,substeps,stops,steps_"
+         "energy_judged,energy_growth,energy_whole_growth,energy_estimated,steps_rejected,steps,substeps,stops,steps_"
          "fallback,"
          "processor_time\n";
   for (const StabilityRun& f : map.failures) {
@@ -376,8 +377,9 @@ std::string failures_csv(const StabilityMap& map) {
         << ',' << f.cell.damping_ratio << ',' << dofs_name(f.cell.dofs) << ',' << name_of(f.cell.hand) << ','
         << name_of(f.cell.tail) << ',' << f.cell.seconds << ',' << f.outcome.finite << ',' << f.outcome.bounded << ','
         << f.outcome.energy_judged << ',' << f.outcome.energy_growth << ',' << f.outcome.energy_whole_growth << ','
-        << f.outcome.energy_estimated << ',' << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.substeps
-        << ',' << f.outcome.stops << ',' << f.outcome.fallback << ',' << f.outcome.processor << '\n';
+        << f.outcome.energy_estimated << ',' << f.outcome.rejected << ',' << f.outcome.steps << ','
+        << f.outcome.substeps << ',' << f.outcome.stops << ',' << f.outcome.fallback << ',' << f.outcome.processor
+        << '\n';
   }
   return out.str();
 }

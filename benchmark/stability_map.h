@@ -53,14 +53,14 @@ struct StabilityOutcome {
   double energy_estimated =
       0.0;  ///< estimated energy errors of the steps in these times, for integrators that conserve energy
   bool energy_judged =
-      false;        ///< whether the energy could be judged: run completed, and the work of the hand known well enough
-  int refused = 0;  ///< steps rejected
+      false;         ///< whether the energy could be judged: run completed, and the work of the hand known well enough
+  int rejected = 0;  ///< steps rejected
   int steps = 0, stops = 0, fallback = 0;  ///< steps of the integrator; that reached a stop; taken by the L-stable rule
   int substeps = 0;                        ///< steps discarded and repeated as shorter ones
   double processor = 0.0;                  ///< ratio of processor time to simulated time
   bool energy_within_rounding() const { return energy_judged && energy_whole_growth <= 1e-9; }
   bool energy_kept() const { return energy_growth <= 1e-9 && energy_estimated <= EnergyWatch::max_share; }
-  bool held() const { return finite && bounded && energy_kept() && refused == 0; }
+  bool held() const { return finite && bounded && energy_kept() && rejected == 0; }
   /// Whether it held in steps of the length set, without the L-stable rule and without the end of the rod's range: by
   /// the integrator alone.
   bool held_on_its_own() const { return held() && stops + fallback + substeps == 0; }
@@ -78,7 +78,7 @@ struct StabilityRow {
   std::string integrator, shape;
   double stiffness_factor = 0.0, mass = 0.0, step = 0.0, damping_ratio = 0.0;
   int cannot_fail = 0;  ///< additional cells that cannot fail
-  int cells = 0, finite = 0, bounded = 0, energy_judged = 0, energy_kept = 0, none_refused = 0, held = 0;
+  int cells = 0, finite = 0, bounded = 0, energy_judged = 0, energy_kept = 0, none_rejected = 0, held = 0;
   int real_time = 0, three_times = 0;  ///< cells with processor time below one and below three times the simulated time
   int on_its_own = 0;                  ///< cells of StabilityOutcome::held_on_its_own()
   int turning = 0;  ///< cells whose hand turns to the end: neither the object's reach nor its energy is judged
@@ -90,7 +90,7 @@ struct StabilityRow {
 template <typename Fields>
 void each_field(StabilityRow& r, Fields& fields) {
   fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded,
-         r.energy_judged, r.energy_kept, r.none_refused, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps,
+         r.energy_judged, r.energy_kept, r.none_rejected, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps,
          r.stops, r.fallback, r.on_its_own, r.turning, r.substeps, r.energy_growth, r.energy_estimated,
          r.within_rounding);
 }
@@ -110,7 +110,7 @@ void each_field(StabilityRun& f, Fields& fields) {
   StabilityOutcome& o = f.outcome;
   fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.dofs.stretch, c.dofs.bend,
          c.dofs.torsion, c.hand, c.tail, c.seconds, o.finite, o.bounded, o.energy_growth, o.energy_whole_growth,
-         o.energy_estimated, o.energy_judged, o.refused, o.steps, o.stops, o.fallback, o.substeps, o.processor);
+         o.energy_estimated, o.energy_judged, o.rejected, o.steps, o.stops, o.fallback, o.substeps, o.processor);
 }
 
 struct StabilityMap {

@@ -43,7 +43,7 @@ UnitRows Units::take(const std::string& name) {
   const auto found = rows_.find(name);
   if (found == rows_.end())
     validation::refuse("shards", "unit", name,
-                       "one that was measured by one of them: same build, same peers, same recordings");
+                       "one that was measured by one of them: same build, same baselines, same recordings");
   UnitRows unit = std::move(found->second);
   rows_.erase(found);
   times_.push_back({part_, name, unit.processor});

@@ -48,7 +48,7 @@ set(SPRING_WORKBENCH_HEADERS
   dynamics/integrator.h
   dynamics/settings.h
   geometry/shapes.h
-  hand_input/feed.h
+  hand_input/input_filter.h
   hand_input/local_time.h
   hand_input/reacquisition.h
   hand_input/sample_gate.h

@@ -21,7 +21,7 @@ rod::PerDofChange<T> per_dof(const py::object& values, const std::string& key) {
     return {each[0], each[1], each[2]};
   } catch (const py::cast_error&) {
     const std::string kind = std::is_same_v<T, bool> ? "booleans" : "numbers";
-    refuse(key, py::repr(values).cast<std::string>(), "three " + kind + " (or None), of stretch, bend and torsion");
+    refuse(key, py::repr(values).cast<std::string>(), "three " + kind + " (or None), for stretch, bend and torsion");
   }
 }
 
@@ -257,8 +257,8 @@ void bind_settings(py::module& module) {
   module.def("setting_descriptions", &simulation::setting_descriptions, "Returns the descriptions of all settings.");
   py::class_<SimulationSettings>(
       module, "SimulationSettings",
-      "Settings of a simulation by key, each checked when it is set; what they must be together "
-      "is checked by Simulation. setting_descriptions() explains each key. Settings cannot "
+      "Settings of a simulation by key. Each value is checked when it is set; combinations are "
+      "checked by Simulation. setting_descriptions() explains each key. Settings cannot "
       "be read back: keep the dictionary.")
       .def(py::init(&to_settings), py::arg("values") = py::dict(),
            "values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown "
@@ -338,8 +338,8 @@ pose is invalid; the samples before it are then added.)")
            py::arg("pause") = std::numeric_limits<double>::infinity(), py::call_guard<py::gil_scoped_release>(),
            R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
-Stops after the step that reaches `pause` [s]; another call to the same t_end goes on with the steps of a call without a
-pause.
+Stops after the step that reaches `pause` [s]; a further call with the same t_end continues, and together they take the
+same steps as one call without a pause.
 
 If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still act. Raises
 InputError if t_end is not finite.)");

@@ -140,12 +140,12 @@ void bind_report(py::module& module) {
   py::class_<AdvanceReport>(module, "AdvanceReport",
                             R"(Report on one call of `advance_to`.
 
-`steps` counts the steps that were taken. With a tolerance, or an integrator that is stable at any stiffness, an attempt
-at a step that does not solve its equation or errs too much (without a tolerance: in energy) is discarded and repeated
-as shorter ones; `substeps` counts the discarded attempts. Otherwise, or if none succeeds, an L-stable rule takes the
-step (`steps_fallback`). If that rule fails, too, the fork is rigid for the step or, in contact, the object stays in
-place (`steps_rejected`). If these three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing
-unusual happened. In contact, one step may need several integrations of the equation of motion, each over a part of it.
+A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
+repeated as shorter ones; `substeps` counts the discarded attempts. If that does not help, or the integrator is not
+stable at any stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is rigid for
+the step or, in contact, the object stays in place (`steps_rejected`). If these three counters, `stops`,
+`steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step may take several
+integrations.
 
 An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate of an
 error from above, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double time_limit = 10.0;  // s, for the runs of a curve of the drag table
 
-std::vector<DragMethod> all_drags(const std::vector<DragMethod>& peers) {
+std::vector<DragMethod> all_drags(const std::vector<DragMethod>& baselines) {
   std::vector<DragMethod> all = our_drags();
-  all.insert(all.end(), peers.begin(), peers.end());
+  all.insert(all.end(), baselines.begin(), baselines.end());
   return all;
 }
 
@@ -67,14 +67,14 @@ DragRow isolated_drag(const DragMethod& method, const DragScene& scene, double s
 
 }  // namespace
 
-std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick) {
-  return lines_of(all_drags(peers)).size() * factors(quick).size() * steps().size() + 3;
+std::size_t contact_unit_count(const std::vector<DragMethod>& baselines, bool quick) {
+  return lines_of(all_drags(baselines)).size() * factors(quick).size() * steps().size() + 3;
 }
 
-ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Units& units) {
+ContactTable measure_contact(const std::vector<DragMethod>& baselines, bool quick, Units& units) {
   units.begin("contact");
   ContactTable table;
-  const std::vector<DragMethod> methods = all_drags(peers);
+  const std::vector<DragMethod> methods = all_drags(baselines);
   std::size_t number = 0;
   for (const double factor : factors(quick)) {  // a stiffness belongs to one shard, and its methods take turns
     for (const double step : steps()) {

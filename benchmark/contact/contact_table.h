@@ -19,10 +19,11 @@ struct ContactTable {
   std::vector<ContactCost> costs;
 };
 
-/// `peers`: drag scenes of the engines. Each run is made in a child process, so the caller must have no other threads.
-ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Units& units);
+/// `baselines`: drag scenes of the engines. Each run is made in a child process, so the caller must have no other
+/// threads.
+ContactTable measure_contact(const std::vector<DragMethod>& baselines, bool quick, Units& units);
 /// Number of units of work.
-std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick);
+std::size_t contact_unit_count(const std::vector<DragMethod>& baselines, bool quick);
 
 std::string drags_csv(const std::vector<DragRow>& rows);
 std::string impacts_csv(const std::vector<ImpactRow>& rows);

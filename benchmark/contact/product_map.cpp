@@ -176,7 +176,7 @@ std::string contact_map_csv(const std::vector<MapRow>& rows) {
   std::ostringstream out;
   out << "contact,obstacle,shape,friction,stiffness,mass_ratio,step,damping,finite,simulated,depth_mm,moved,steps_"
          "blocked,steps_unsolved,"
-         "steps_refused,times_real_time,held\n";
+         "steps_rejected,times_real_time,passed\n";
   for (const MapRow& row : rows) {
     out << name_of(row.cell.contact) << ',' << row.obstacle << ','
         << map_shapes().at(static_cast<std::size_t>(row.cell.shape)) << ',' << row.cell.friction << ','

@@ -11,7 +11,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double sample_time = 0.02;                                           // s
-constexpr double wild_time = 0.2, swing_time = 2.0;                            // s
+constexpr double stress_time = 0.2, swing_time = 2.0;                          // s
 constexpr double ring_radius = 0.05, tube_radius = 0.01;                       // m, on the peg
 constexpr double peg_radius = 0.005, peg_length = 4.0, between_rings = 0.025;  // m
 constexpr double link_radius = 0.02, link_tube = 0.004;                        // m, of the chain
@@ -66,7 +66,7 @@ ContactTrial rings_on_peg(unsigned seed) {
   trial.settings.fork.length = 0.05;
   std::vector<RigidTransform> samples{X_WP * Eigen::Translation3d(0.0, 0.0, -trial.settings.fork.length)};
   Vector3d v = Vector3d::Zero(), w = v;
-  for (int i = 0; i <= static_cast<int>(std::lround(wild_time / sample_time)); ++i) {
+  for (int i = 0; i <= static_cast<int>(std::lround(stress_time / sample_time)); ++i) {
     if (i % 5 == 0) v = in_ball(5.0, random), w = in_ball(50.0, random);
     RigidTransform next = samples.back();
     next.translation() += sample_time * v;
@@ -74,7 +74,7 @@ ContactTrial rings_on_peg(unsigned seed) {
     samples.push_back(next);
   }
   trial.X_WH = [samples](double t) { return samples.at(static_cast<std::size_t>(std::lround(t / sample_time))); };
-  trial.duration = wild_time;
+  trial.duration = stress_time;
   return trial;
 }
 
@@ -96,8 +96,8 @@ void run_rings(int count, int first, const TakeRow& take) {
     take(sum.add(
         run.row({at_most("off the peg", off, 0.0), depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m)})));
   }
-  take(sum.row("wild motions", {at_most("with a ring off the peg", lost, 0.0),
-                                at_most("mean", 1e3 * sum.measured().cpu_mean, 20.0, "ms")}));
+  take(sum.row("random motions", {at_most("with a ring off the peg", lost, 0.0),
+                                  at_most("mean", 1e3 * sum.measured().cpu_mean, 20.0, "ms")}));
 }
 
 ContactTrial swung_chain(unsigned seed) {

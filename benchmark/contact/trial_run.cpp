@@ -203,7 +203,7 @@ TrialRow TrialSum::row(const std::string& name, std::vector<Bar> bars) const {
 void print_trial_header(std::ostream& out) {
   out << "trial,case,contact,step_ms,depth_mm,deepest_pair,looks,steps_blocked,steps_unsolved,time_lost_s,"
          "steps_rejected,cpu_ms_mean,"
-         "cpu_ms_99%,cpu_ms_most,energy_gained_uJ,energy_gained_um,verdict,judged\n";
+         "cpu_ms_99%,cpu_ms_most,energy_gained_uJ,energy_gained_um,result,judged\n";
 }
 
 void print(const TrialRow& row, std::ostream& out) {

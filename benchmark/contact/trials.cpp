@@ -18,9 +18,9 @@
 #include "benchmark/contact/same_bits.h"
 #include "benchmark/contact/scale.h"
 #include "benchmark/contact/shown.h"
+#include "benchmark/contact/stress_motions.h"
 #include "benchmark/contact/throws.h"
 #include "benchmark/contact/wedge.h"
-#include "benchmark/contact/wild_motions.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::benchmark {
@@ -37,28 +37,28 @@ int count_at(const std::vector<std::string>& arguments, std::size_t index, int o
   return std::stoi(text);
 }
 
-void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
-              const std::vector<scene::ContactMode>& modes, double damping_ratio, std::ostream& out) {
+void run_stress(int motions, int first_seed, const std::vector<StressScene>& scenes,
+                const std::vector<scene::ContactMode>& modes, double damping_ratio, std::ostream& out) {
   out << "contact,scene,damping_ratio,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,"
-         "time_lost_s,refused,cpu_s_per_motion\n";
+         "time_lost_s,rejected,cpu_s_per_motion\n";
   for (const scene::ContactMode mode : modes) {
-    for (const WildScene scene : scenes) {
-      WildResult sum;
+    for (const StressScene scene : scenes) {
+      StressResult sum;
       int passed = 0, over = 0, worst_seed = first_seed;
       for (int seed = first_seed; seed < first_seed + motions; ++seed) {
-        const WildResult r = run({scene, mode, static_cast<unsigned>(seed), damping_ratio});
+        const StressResult r = run({scene, mode, static_cast<unsigned>(seed), damping_ratio});
         if (r.penetration > sum.penetration) worst_seed = seed;
         sum.penetration = std::max(sum.penetration, r.penetration);
         passed += r.passed_through ? 1 : 0;
         over += r.penetration > 1e-4 ? 1 : 0;
         sum.steps_blocked += r.steps_blocked;
         sum.time_lost += r.time_lost;
-        sum.refused += r.refused;
+        sum.rejected += r.rejected;
         sum.seconds += r.seconds;
       }
       out << name_of(mode) << ',' << name_of(scene) << ',' << damping_ratio << ',' << motions << ',' << passed << ','
           << over << ',' << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.steps_blocked << ','
-          << sum.time_lost << ',' << sum.refused << ',' << sum.seconds / std::max(motions, 1) << std::endl;
+          << sum.time_lost << ',' << sum.rejected << ',' << sum.seconds / std::max(motions, 1) << std::endl;
     }
   }
 }
@@ -74,7 +74,7 @@ std::map<int, std::string> recorded(const std::string& path, const std::string& 
 }
 
 /// Runs the seeds that are not in the file yet, and appends a line for each as it finishes.
-void record(const std::string& path, const WildMotion& motion, int first, int last, std::ostream& out) {
+void record(const std::string& path, const StressMotion& motion, int first, int last, std::ostream& out) {
   std::ostringstream name;
   name << name_of(motion.contact) << ',' << name_of(motion.scene) << ',' << motion.damping_ratio << ',';
   const std::string run_name = name.str();
@@ -86,11 +86,11 @@ void record(const std::string& path, const WildMotion& motion, int first, int la
   file << '\n';  // after a line that was cut off
   for (int seed = first; seed <= last; ++seed) {
     if (done.count(seed) > 0) continue;
-    const WildResult r = run({motion.scene, motion.contact, static_cast<unsigned>(seed), motion.damping_ratio});
+    const StressResult r = run({motion.scene, motion.contact, static_cast<unsigned>(seed), motion.damping_ratio});
     file << run_name << seed << ',' << 1e3 * r.penetration << ',' << r.passed_through << ',' << r.steps_blocked << ','
-         << r.time_lost << ',' << r.refused << ',' << r.seconds << std::endl;
+         << r.time_lost << ',' << r.rejected << ',' << r.seconds << std::endl;
   }
-  int count = 0, passed = 0, over = 0, blocked = 0, refused = 0, worst_seed = first;
+  int count = 0, passed = 0, over = 0, blocked = 0, rejected = 0, worst_seed = first;
   double worst = 0.0, lost = 0.0, seconds = 0.0, max_seconds = 0.0;
   for (const auto& [seed, line] : recorded(path, run_name)) {
     if (seed < first || seed > last) continue;
@@ -105,20 +105,20 @@ void record(const std::string& path, const WildMotion& motion, int first, int la
     over += values[1] > 0.1;
     blocked += static_cast<int>(values[3]);
     lost += values[4];
-    refused += static_cast<int>(values[5]);
+    rejected += static_cast<int>(values[5]);
     seconds += values[6];
     max_seconds = std::max(max_seconds, values[6]);
     if (values[1] > worst) worst = values[1], worst_seed = seed;
   }
   out << "contact,scene,damping_ratio,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,"
-         "time_lost_s,refused,cpu_s_per_motion,most_cpu_s\n"
+         "time_lost_s,rejected,cpu_s_per_motion,most_cpu_s\n"
       << run_name << count << ',' << passed << ',' << over << ',' << worst << ',' << worst_seed << ',' << blocked << ','
-      << lost << ',' << refused << ',' << seconds / std::max(count, 1) << ',' << max_seconds << std::endl;
+      << lost << ',' << rejected << ',' << seconds / std::max(count, 1) << ',' << max_seconds << std::endl;
 }
 
-std::vector<WildScene> scenes_at(const std::vector<std::string>& arguments, std::size_t index) {
-  if (index >= arguments.size()) return wild_scenes();
-  for (const WildScene scene : wild_scenes()) {
+std::vector<StressScene> scenes_at(const std::vector<std::string>& arguments, std::size_t index) {
+  if (index >= arguments.size()) return stress_scenes();
+  for (const StressScene scene : stress_scenes()) {
     if (name_of(scene) == arguments[index]) return {scene};
   }
   validation::refuse(where, "scene", arguments[index], "rod_in_room or ring_on_rod");
@@ -204,9 +204,9 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
     print_trial_header(out);
     return seeded_trials().at(what)(count_at(arguments, 1, 100), count_at(arguments, 2, 0), to_out);
   }
-  if (what == "wild" && arguments.size() <= 6) {
-    run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4),
-             damping_ratio_at(arguments, 5), out);
+  if (what == "stress" && arguments.size() <= 6) {
+    run_stress(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4),
+               damping_ratio_at(arguments, 5), out);
   } else if (what == "record" && (arguments.size() == 6 || arguments.size() == 7)) {
     record(arguments[1],
            {scenes_at(arguments, 2).front(), modes_at(arguments, 3).front(), 0, damping_ratio_at(arguments, 6)},
@@ -220,7 +220,8 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
   } else {
     validation::refuse(
         where, "arguments", what,
-        "wild [N [FIRST_SEED [SCENE [CONTACT [DAMPING]]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED [DAMPING], "
+        "stress [N [FIRST_SEED [SCENE [CONTACT [DAMPING]]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED "
+        "[DAMPING], "
         "drops [N [FIRST_SEED]], throws [N [FIRST_SEED]], scale [MOST], "
         "pile|stack|cards|marbles|peg|wedge|motion|incline|bits [quick], rings|chain [N [FIRST_SEED]], or show "
         "TRIAL MILLISECONDS");

@@ -7,7 +7,8 @@
 namespace spring_workbench::benchmark {
 
 /// The program `contact_trials`, which writes CSV to `out`:
-/// - `contact_trials wild [N [FIRST_SEED [SCENE [CONTACT [DAMPING]]]]]`: N (default 100) seeded motions, by default in
+/// - `contact_trials stress [N [FIRST_SEED [SCENE [CONTACT [DAMPING]]]]]`: N (default 100) seeded motions, by default
+/// in
 ///   both modes, with a fork of the damping ratio DAMPING (default 1)
 /// - `contact_trials record FILE SCENE CONTACT FIRST LAST [DAMPING]`: appends the results of the seeds that are not in
 ///   FILE yet

@@ -2,7 +2,7 @@
 """Numbers in documents that come from a table of benchmark/results carry a marker right behind them, invisible when the
 document is shown:
 
-    in 12 µm<!-- max penetration_um of contact_extremes.csv where extreme=stack of ten --> at most
+    in 12 µm<!-- max penetration_um of contact_limit_cases.csv where limit_case=stack of ten --> at most
 
 `the`, `max`, `min`, `mean` or `sum` of a column, over the rows where all the cells named are as said (numbers as
 numbers), or match a pattern (`claim~^Rod .* samples`); `the` wants one row alone; `count` is how many rows have
@@ -18,22 +18,22 @@ A number that a test asserts is one of the code of that test, a gtest or a whole
 
 `run` is no number but `quick` or `full`: how the report was run that wrote the table, by the command in its header.
 
-    of a quick<!-- run of verdicts.csv --> run
+    of a quick<!-- run of checks.csv --> run
 
 `word` is no number either, but what the one row chosen has in a column, the last word before the marker:
 
-    against rk4<!-- word peer of verdicts.csv where claim~^Scene A × 1, verdict=FAIL -->
+    against rk4<!-- word baseline of checks.csv where claim~^Scene A × 1, result=FAIL -->
 
 Whole rows stand between two markers, each on a line of its own:
 
-    <!-- rows claim, measured of verdicts.csv where verdict=FAIL -->
+    <!-- rows claim, measured of checks.csv where result=FAIL -->
     (the table, which --write makes)
     <!-- end of rows -->
 
 Sentences that compare have a marker, too, which says what must hold for them to be true, of all chosen rows or of two
 values:
 
-    is the fastest<!-- all verdict=PASS of verdicts.csv where claim~^Rod stiff.*every peer -->
+    is the fastest<!-- all result=PASS of checks.csv where claim~^Rod stiff.*every baseline -->
     is cheaper<!-- less max us of t.csv where method=ode than min us of t.csv where method=stop -->
 
 Usage: document_numbers.py reports stale numbers and invalid markers; status 1 if there are any

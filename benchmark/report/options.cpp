@@ -89,8 +89,8 @@ std::optional<ReportOptions> parse_report_options(int argc, char** argv) {
 }
 
 std::string report_help() {
-  return R"(Measures error against run time of the integrators, the shape models and the peers that were found, and the
-stability map; or the integrators on a recording of yours.
+  return R"(Measures error against run time of the integrators, the shape models and the baselines that were found, and
+the stability map; or the integrators on a recording of yours.
 
 report [--quick] [--out DIR] [--commit NAME]
 report [--quick] [--out DIR] [--commit NAME] --scene SCENE.urdf (--bag FILE.bag | --motion FILE [--motion FILE ...])
@@ -106,7 +106,7 @@ report [--out DIR] --merge PART [PART ...]
   --queue     a folder that all shards share, empty at first: each shard takes the next unit from it
   --merge     the files of all shards
 
-Writes tables (CSV), pictures (PNG), one page (report.html), and prints the verdicts. Exit status: 0 done; 1 failed; 2
+Writes tables (CSV), pictures (PNG), one page (report.html), and prints the checks. Exit status: 0 done; 1 failed; 2
 bad arguments or input, with one line on standard error.
 )";
 }

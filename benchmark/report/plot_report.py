@@ -12,7 +12,7 @@ Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE HAND    a colum
        plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
        plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
-       plot_report.py stability stability_map.csv PICTURE.png [contact_extremes.csv contact_map.csv]
+       plot_report.py stability stability_map.csv PICTURE.png [contact_limit_cases.csv contact_map.csv]
                                                                     a panel per integrator and contact mode, and one
                                                                     for the map of contact
        plot_report.py contact contact_drag.csv PICTURE.png contact_impact.csv contact_steps.csv"""
@@ -36,7 +36,7 @@ MEASURES = {
 TIME = "wall_us_per_simulated_second"
 TIME_LABEL = "run time [µs per simulated second]"
 OURS = ["#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#8c564b", "#e377c2", "#17becf", "#bcbd22"]
-PEERS = ["#ff7f0e", "#7f7f7f", "#2ca02c", "#1f77b4", "#9467bd", "#8c564b", "#17becf", "#bcbd22"]
+BASELINES = ["#ff7f0e", "#7f7f7f", "#2ca02c", "#1f77b4", "#9467bd", "#8c564b", "#17becf", "#bcbd22"]
 DEFAULT = "exponential"
 PAPER = "paper"
 MARKERS = "s^vD<>pPX*hdH8"
@@ -107,16 +107,16 @@ def our_names(rows):
 
 
 def styles(rows):
-    """Line styles: ours bold, peers thin with open markers."""
+    """Line styles: ours bold, baselines thin with open markers."""
     ours = our_names(rows)
-    peers = in_order(row["method"] for row in rows if row["method"] not in ours)
+    baselines = in_order(row["method"] for row in rows if row["method"] not in ours)
     style = {}
     for i, name in enumerate(ours):
         style[name] = dict(
             color=OURS[i % len(OURS)], linewidth=2.4, marker="o", markersize=4, zorder=3, label=f"{name} (ours)"
         )
     tab20 = pyplot.get_cmap("tab20").colors
-    for i, name in enumerate(peers):
+    for i, name in enumerate(baselines):
         style[name] = dict(
             color=tab20[i % 20],
             marker=MARKERS[i % len(MARKERS)],
@@ -202,7 +202,7 @@ def rod_panel(axes, rows, name):
         axes, lines[DEFAULT], color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"ours ({DEFAULT})"
     )
     for i, method in enumerate(method for method in lines if method.startswith(SOLVERS)):
-        look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.2, markersize=5, zorder=2)
+        look = dict(color=BASELINES[i % len(BASELINES)], marker=MARKERS[i], linewidth=1.2, markersize=5, zorder=2)
         draw_line(axes, lines[method], label=method[len(SOLVERS) :].replace("_", " "), **look)
     draw_line(axes, lines[ENGINES], color="black", marker="X", linewidth=1.8, markersize=6, zorder=2, label=ENGINES)
     draw_line(axes, lines[PAPER], color="black", marker="*", linewidth=1.2, markersize=6, linestyle=":", label=PAPER)
@@ -231,7 +231,7 @@ def drag_panel(axes, rows, factor):
         if method in ours:
             look = dict(color=OURS[0], linewidth=3, markersize=5, marker="o", zorder=3)
         else:
-            colour = PEERS[(i - len(ours)) % len(PEERS)]
+            colour = BASELINES[(i - len(ours)) % len(BASELINES)]
             look = dict(color=colour, linewidth=1.2, markersize=5, marker=MARKERS[i % len(MARKERS)], zorder=2)
         for box in ("turns", "cannot turn"):
             line = drag_line(rows, method, factor, box)
@@ -459,7 +459,7 @@ def shares(rows, line_of, column_of):
     held, cells, alone = defaultdict(int), defaultdict(int), 0
     for row in rows:
         place = line_of(row), column_of(row)
-        held[place] += int(row["held"])
+        held[place] += int(row["passed"])
         cells[place] += int(row.get("cells", 1))
         alone += int(row.get("on_its_own", 0))
     title = f"{sum(held.values())} of {sum(cells.values())} cells hold"
@@ -500,7 +500,7 @@ def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
     return image
 
 
-def stability(table, picture, extremes=None, contact_map=None):
+def stability(table, picture, limit_cases=None, contact_map=None):
     """Draws first the cells that pass, then stops and fallbacks, with one panel per integrator; contact is last."""
     rows = read(table)
     shape = rows[0]["shape"]
@@ -508,7 +508,7 @@ def stability(table, picture, extremes=None, contact_map=None):
     names = in_order(row["integrator"] for row in rows)
     stiffnesses = sorted({float(row["stiffness_factor"]) for row in rows})
     masses = sorted({float(row["mass"]) for row in rows})
-    contact_rows = read(extremes) if extremes else []
+    contact_rows = read(limit_cases) if limit_cases else []
     modes = in_order(row["contact"] for row in contact_rows)
     columns = 3
     lines = -(-len(names) // columns)
@@ -550,14 +550,14 @@ def stability(table, picture, extremes=None, contact_map=None):
         for axes in panels[-columns:]:
             axes.set_xlabel("stiffness factor, power of ten")
     if modes:
-        contact_panels = panels_of(layers[2], "contact at its extremes, and a map of it", 1)
+        contact_panels = panels_of(layers[2], "limit cases of contact, and a map of it", 1)
         for axes, mode in zip(contact_panels, modes):
             here = [row for row in contact_rows if row["contact"] == mode]
             forks = sorted({float(row["stiffness"]) for row in here})
-            extremes_met = in_order(row["extreme"] for row in here)
-            share, total = shares(here, lambda row: row["extreme"], lambda row: float(row["stiffness"]))
+            cases_met = in_order(row["limit_case"] for row in here)
+            share, total = shares(here, lambda row: row["limit_case"], lambda row: float(row["stiffness"]))
             image = share_panel(
-                axes, [[share.get((line, k), math.nan) for k in forks] for line in extremes_met], forks, extremes_met
+                axes, [[share.get((line, k), math.nan) for k in forks] for line in cases_met], forks, cases_met
             )
             axes.tick_params(axis="y", labelsize=8)
             axes.set_title(f"{mode}: {total}", fontsize=10)
@@ -599,7 +599,7 @@ def contact(table, picture, impacts, steps):
                     line,
                     label=name + ("" if box == "turns" else ", cannot turn"),
                     linestyle=dashes,
-                    color=(OURS if ours else PEERS)[i % 8],
+                    color=(OURS if ours else BASELINES)[i % 8],
                     marker="o" if ours else MARKERS[i],
                     linewidth=2.0 if ours else 1.0,
                 )

@@ -8,15 +8,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "benchmark/baselines.h"
+#include "benchmark/checks.h"
 #include "benchmark/our_methods.h"
-#include "benchmark/peers.h"
 #include "benchmark/report/page.h"
 #include "benchmark/report/parts.h"
 #include "benchmark/report/sections.h"
 #include "benchmark/report/tables.h"
 #include "benchmark/rod_table.h"
 #include "benchmark/units.h"
-#include "benchmark/verdicts.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -30,8 +30,8 @@ std::string write_file(const std::string& folder, const std::string& name, const
   return path;
 }
 
-void print(const std::vector<Verdict>& verdicts, std::ostream& out) {
-  for (const Verdict& v : verdicts) {
+void print(const std::vector<Check>& checks, std::ostream& out) {
+  for (const Check& v : checks) {
     out << std::left << std::setw(9) << name_of(v.result) << ' ' << v.claim << "\n          target: " << v.target
         << "\n          measured: " << v.measured << '\n';
   }
@@ -53,21 +53,21 @@ std::size_t units_of(const Plan& plan, const std::vector<const Method*>& methods
   std::size_t counts = 0;
   for (const Method* method : methods) counts += has_stability_counts(*method) ? 2 : 0;
   return unit_count(plan.scenes) + unit_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
-         contact_unit_count(drags, quick) + extreme_unit_count() + map_unit_count(quick) + 4;
+         contact_unit_count(drags, quick) + limit_case_unit_count() + map_unit_count(quick) + 4;
 }
 
-Measurements measure(const Plan& plan, const std::vector<const Method*>& methods, const Peers& peers, bool quick,
-                     Units& units) {
+Measurements measure(const Plan& plan, const std::vector<const Method*>& methods, const Baselines& baselines,
+                     bool quick, Units& units) {
   Measurements measured;
   measured.quick = quick;
   units.begin("steps");
   measured.step_costs = units.rows<StepCost>(0, "parts of a step", [] { return step_costs(); });
   measured.scenes = error_table(methods, plan.scenes, units);
-  measured.rods = rod_table(plan.rods, peers.rods, units);
-  measured.contact = measure_contact(peers.drags, quick, units);
+  measured.rods = rod_table(plan.rods, baselines.rods, units);
+  measured.contact = measure_contact(baselines.drags, quick, units);
   if (!quick) measured.stability_counts = stability_table(methods, units);
   measured.map = stability_map(plan.map, units);
-  measured.extremes = extremes_table(quick, units);
+  measured.limit_cases = limit_cases_table(quick, units);
   measured.contact_map = contact_map(quick, units);
   units.begin("shapes and steps");
   measured.elastica = units.rows<ElasticaRow>(0, "elastica", [] { return elastica_table(); });
@@ -90,7 +90,7 @@ void write_report(Measurements measured, const RunTime& measuring, const RunTime
   tables.rods = keep("rod_table.csv", as_csv(measured.rods));
   tables.elastica = keep("elastica.csv", elastica_csv(measured.elastica));
   tables.map = keep("stability_map.csv", stability_csv(measured.map));
-  tables.extremes = keep("contact_extremes.csv", extremes_csv(measured.extremes));
+  tables.limit_cases = keep("contact_limit_cases.csv", limit_cases_csv(measured.limit_cases));
   tables.contact_map = keep("contact_map.csv", contact_map_csv(measured.contact_map));
   keep("stability_failures.csv", failures_csv(measured.map));
   if (!measured.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));
@@ -105,9 +105,9 @@ void write_report(Measurements measured, const RunTime& measuring, const RunTime
   const RunTime now = run_time_now();
   measured.seconds = measuring.ended - measuring.begun + now.ended - begun.ended;
   measured.processor_seconds = measuring.processor + now.processor - begun.processor;
-  const std::vector<Verdict> judged = verdicts(measured);
-  keep("verdicts.csv", verdicts_csv(judged));
-  page.sections.insert(page.sections.begin(), verdicts_section(judged));
+  const std::vector<Check> judged = checks(measured);
+  keep("checks.csv", checks_csv(judged));
+  page.sections.insert(page.sections.begin(), checks_section(judged));
   const std::string path = write_file(folder, "report.html", html_page(page));
   print(judged, out);
   log << "wrote " << path << '\n';
@@ -124,27 +124,27 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   const bool quick = merging ? part.quick : options.quick;
   const Shard shard = options.shard.value_or(Shard{});
   const std::vector<MethodPtr> ours = our_methods();
-  const Peers peers = all_peers();
+  const Baselines baselines = all_baselines();
   std::vector<const Method*> methods;
   for (const MethodPtr& method : ours) methods.push_back(method.get());
-  for (const MethodPtr& method : peers.methods) methods.push_back(method.get());
+  for (const MethodPtr& method : baselines.methods) methods.push_back(method.get());
   const Plan plan(quick);
   if (!merging) {
     part.shard = shard;
     part.quick = quick;
-    part.facts = run_facts(command, options.commit, peers);
+    part.facts = run_facts(command, options.commit, baselines);
     part.warning = load_warning();
   }
   log << as_csv_header(part.facts);
   if (!part.warning.empty()) log << "report: " << part.warning << '\n';
 
-  Progress progress(log, isatty(STDERR_FILENO) != 0, units_of(plan, methods, peers.drags, quick));
+  Progress progress(log, isatty(STDERR_FILENO) != 0, units_of(plan, methods, baselines.drags, quick));
   Units units = merging ? Units(progress, std::move(part.rows)) : Units(progress, shard, options.queue);
-  Measurements measured = measure(plan, methods, peers, quick, units);
+  Measurements measured = measure(plan, methods, baselines, quick, units);
   progress.finish();
   if (merging && !units.kept().empty()) {
     validation::refuse("shards", "unit", units.kept().begin()->first,
-                       "a unit of this report: same build, same peers, same recordings");
+                       "a unit of this report: same build, same baselines, same recordings");
   }
   if (!merging) {
     part.time = run_time_now();

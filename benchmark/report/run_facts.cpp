@@ -72,7 +72,7 @@ std::string load_warning() {
   return text.str();
 }
 
-std::vector<RunFact> run_facts(const std::string& command, const std::string& commit, const Peers& peers) {
+std::vector<RunFact> run_facts(const std::string& command, const std::string& commit, const Baselines& baselines) {
   return {{"machine", machine()},
           {"load", load()},
           {"compiler", SPRING_WORKBENCH_COMPILER},
@@ -80,8 +80,8 @@ std::vector<RunFact> run_facts(const std::string& command, const std::string& co
           {"date", now()},
           {"command", command},
           {"commit", commit},
-          {"peers found", list(peers.found)},
-          {"peers not found", list(peers.not_found)}};
+          {"baselines found", list(baselines.found)},
+          {"baselines not found", list(baselines.not_found)}};
 }
 
 std::string as_csv_header(const std::vector<RunFact>& facts) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/peers.h"
+#include "benchmark/baselines.h"
 
 namespace spring_workbench::benchmark {
 
@@ -17,9 +17,9 @@ void each_field(RunFact& f, Fields& fields) {
   fields(f.name, f.value);
 }
 
-/// Machine, its current load, compiler, flags, date, command, commit, peers found and not found: what must accompany
-/// every number.
-std::vector<RunFact> run_facts(const std::string& command, const std::string& commit, const Peers& peers);
+/// Machine, its current load, compiler, flags, date, command, commit, baselines found and not found: what must
+/// accompany every number.
+std::vector<RunFact> run_facts(const std::string& command, const std::string& commit, const Baselines& baselines);
 
 /// The program's name and its arguments.
 std::string command_of(int argc, char** argv);

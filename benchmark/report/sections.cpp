@@ -18,7 +18,7 @@ PageSection::Figure figure(const Picture& picture, const std::string& folder) {
 
 PageSection scenes_section(const Measurements& measured, const Tables& tables, const std::string& folder) {
   PageSection section;
-  section.title = "Scenes A, B, C: ours and the peers";
+  section.title = "Scenes A, B, C: ours and the baselines";
   section.text =
       "A held body on a spring on a moving hand: A stretch, B torsion, C six coordinates; times a factor on the "
       "stiffness. First what a user has: a hand known by the poses of a 50 Hz tracker. Ours are then runs of "
@@ -123,7 +123,7 @@ PageSection stability_section(const Measurements& measured, const Tables& tables
       "Cells drawn from stiffness × mass × step × damping × DOFs × hand × what the hand does then (rests, trembles "
       "by 1 nm to 1 mm, goes on), seeded, so that every pair of values is met; each is run through Simulation as a "
       "user runs it, for 10 s, one in 200 for 60 s. A cell holds where pose and twist stay finite and no further from "
-      "the hand than free flight may take it, no step was refused, and, while the hand rests or trembles, the energy "
+      "the hand than free flight may take it, no step was rejected, and, while the hand rests or trembles, the energy "
       "less "
       "the hand's work does not grow by more than 1e-9 and the steps' own estimates (a hundredth at most), of the "
       "largest elastic and kinetic energy then and the weight times the fork's length. While the hand turns, or where "
@@ -133,29 +133,31 @@ PageSection stability_section(const Measurements& measured, const Tables& tables
       "end of the rod's range (`stops`) or were done by the L-stable rule (`steps_fallback`): "
       "cells without any of them hold on their own. Cells without mass or with "
       "every DOF rigid cannot fail and are counted apart. "
-      "The contact panel is a map of its own: boxes at the extremes of mass, in both contact modes, pressed against "
+      "The contact panel is a map of its own: boxes of the least and the largest mass, in both contact modes, pressed "
+      "against "
       "others, shifted along them, and left alone. A cell holds where all objects stay finite and within 0.5 m of "
       "where they began, none gets deeper than 0.1 mm into another, the energy does not grow while the hand rests by "
-      "more than 3 µm of depth are worth under the hardest load, and no step was refused, blocked or unsolved. The map "
+      "more than 3 µm of depth are worth under the hardest load, and no step was rejected, blocked or unsolved. The "
+      "map "
       "of contact is drawn from contact mode × stiffness × mass ratio × step × damping × friction × shape of the held "
       "object × obstacle (a wall, a loose box, a loose box in front of a wall, a stack), with every pair of values: "
       "the hand presses the held object by 20 mm, shifts it sideways, and rests. A cell holds where all objects stay "
-      "finite and within 0.5 m of where they began, none gets deeper than 0.1 mm into another, no step was refused, "
+      "finite and within 0.5 m of where they began, none gets deeper than 0.1 mm into another, no step was rejected, "
       "blocked or unsolved, and the processor time is below three times real time.";
   section.figures.push_back(figure({"stability",
                                     tables.map,
                                     "stability_map.png",
-                                    {tables.extremes, tables.contact_map},
-                                    "Share of the cells that hold, by stiffness and mass; contact at its extremes, and "
+                                    {tables.limit_cases, tables.contact_map},
+                                    "Share of the cells that hold, by stiffness and mass; limit cases of contact, and "
                                     "its map over mass ratio and stiffness"},
                                    folder));
   section.tables.push_back({"Cells", map_summary_csv(measured.map), false});
-  section.tables.push_back({"Contact at its extremes", extremes_csv(measured.extremes), true});
+  section.tables.push_back({"Limit cases of contact", limit_cases_csv(measured.limit_cases), true});
   section.tables.push_back({"Map of contact", contact_map_csv(measured.contact_map), true});
   section.tables.push_back({"The worst cells of each integrator that do not hold", failures_csv(measured.map), true});
   if (!measured.stability_counts.empty()) {
     section.tables.push_back(
-        {"Ours and the peers on scenes A and C: cases of 11 stiffnesses × 5 masses × 4 steps that stay "
+        {"Ours and the baselines on scenes A and C: cases of 11 stiffnesses × 5 masses × 4 steps that stay "
          "finite and bounded",
          stability_counts_csv(measured.stability_counts), false});
   }
@@ -207,12 +209,12 @@ PageSection times_section(const std::vector<UnitTime>& times) {
 
 }  // namespace
 
-PageSection verdicts_section(const std::vector<Verdict>& judged) {
-  PageSection verdict;
-  verdict.title = "Verdicts";
-  verdict.text = "What was promised, what was measured in this run.";
-  verdict.tables.push_back({"", verdicts_csv(judged), false});
-  return verdict;
+PageSection checks_section(const std::vector<Check>& judged) {
+  PageSection check;
+  check.title = "Checks";
+  check.text = "What was promised, what was measured in this run.";
+  check.tables.push_back({"", checks_csv(judged), false});
+  return check;
 }
 
 std::vector<PageSection> page_sections(const Measurements& measured, double elastica_difference, const Tables& tables,

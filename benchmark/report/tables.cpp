@@ -139,12 +139,12 @@ std::string map_summary_csv(const StabilityMap& map) {
   }
   std::ostringstream csv;
   csv << "integrator,shape,cells,finite,bounded,energy judged,energy kept,growing by at most 1e-9 without allowing for "
-         "the estimates,no step refused,all of these,of those "
+         "the estimates,no step rejected,all of these,of those "
          "without shorter steps and stops and fallback,cells whose hand turns to the end (reach and energy not judged),"
          "faster than real time,below three times that,steps,substeps,stops,steps_fallback,cells that cannot fail\n";
   for (const StabilityRow& sum : sums) {
     csv << sum.integrator << ',' << sum.shape << ',' << sum.cells << ',' << sum.finite << ',' << sum.bounded << ','
-        << sum.energy_judged << ',' << sum.energy_kept << ',' << sum.within_rounding << ',' << sum.none_refused << ','
+        << sum.energy_judged << ',' << sum.energy_kept << ',' << sum.within_rounding << ',' << sum.none_rejected << ','
         << sum.held << ',' << sum.on_its_own << ',' << sum.turning << ',' << sum.real_time << ',' << sum.three_times
         << ',' << sum.steps << ',' << sum.substeps << ',' << sum.stops << ',' << sum.fallback << ',' << sum.cannot_fail
         << '\n';

@@ -8,9 +8,9 @@
 #include <iostream>
 #include <optional>
 
+#include "benchmark/baselines.h"
 #include "benchmark/error_table.h"
 #include "benchmark/our_methods.h"
-#include "benchmark/peers.h"
 #include "spring_workbench/config/command_line.h"
 #include "spring_workbench/validation/number_rule.h"
 
@@ -31,16 +31,17 @@ std::vector<const Method*> named(const std::vector<std::string>& names, const st
 
 void measure(const std::vector<std::string>& names) {
   std::vector<MethodPtr> all = our_methods();
-  Peers peers = all_peers();
-  std::move(peers.methods.begin(), peers.methods.end(), std::back_inserter(all));
+  Baselines baselines = all_baselines();
+  std::move(baselines.methods.begin(), baselines.methods.end(), std::back_inserter(all));
   const std::vector<const Method*> methods = named(names, all);
   const ErrorTablePlan plan = error_table_plan(false);
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, unit_count(plan));
   Units units(progress, Shard{});
   const std::vector<ErrorRow> rows = error_table(methods, plan, units);
   progress.finish();
-  std::cout << "# peers found:";
-  for (const std::string& found : peers.found) std::cout << (&found == &peers.found.front() ? " " : ", ") << found;
+  std::cout << "# baselines found:";
+  for (const std::string& found : baselines.found)
+    std::cout << (&found == &baselines.found.front() ? " " : ", ") << found;
   std::cout << '\n' << as_csv(rows);
 }
 

@@ -30,7 +30,7 @@ struct DayResult {
 };
 
 /// Runs a long live session like that of the node `manipulation`, without ROS and on simulated clocks. Two hands loop
-/// recordings, as two of four stations at 30 Hz, through stream clocks, feed and SimulationRunner. Changes as by
+/// recordings, as two of four stations at 30 Hz, through stream clocks, filter and SimulationRunner. Changes as by
 /// services are made at random, and random faults are injected: of the line (silence, garbage, records repeated or out
 /// of order), of the clocks (set on either host; machine suspended or process stopped), and of the master (restarted:
 /// the node exits and another one resumes from its checkpoint). A Replayer replays the journal concurrently and

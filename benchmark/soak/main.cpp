@@ -26,8 +26,8 @@ int main(int argc, char** argv) {
       options.steps = config::read_integer(YAML::Node(std::string(argv[2])), "command line", "STEPS", 1, 2000000000);
     if (argc > 3) simulation::apply_settings(config::load_yaml_file(argv[3]), argv[3], options.settings);
     const benchmark::SoakResult r = benchmark::run_soak(options, std::cout);
-    std::cout << "placed " << r.placed << " of " << r.targets << " in " << r.assemblies << " assemblies, " << r.refused
-              << " steps refused\nhash " << std::hex << std::setfill('0') << std::setw(16) << r.hash << std::dec
+    std::cout << "placed " << r.placed << " of " << r.targets << " in " << r.assemblies << " assemblies, " << r.rejected
+              << " steps rejected\nhash " << std::hex << std::setfill('0') << std::setw(16) << r.hash << std::dec
               << '\n';
     return judge(r.finite, "everything is finite") |
            judge(r.drift < kDrift, "objects at rest stay within 0.1 mm in 10 s") |

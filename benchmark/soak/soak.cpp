@@ -98,7 +98,7 @@ class Soak {
     const simulation::AdvanceReport report = simulation_.advance_to(t);
     result_.steps += report.steps;
     result_.simulated_time += report.simulated_time;
-    result_.refused += report.steps_rejected;
+    result_.rejected += report.steps_rejected;
     const tools::ToolState tool = simulation_.tool();
     for (const bodies::BodyState& object : simulation_.objects()) {
       result_.finite = result_.finite && object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() &&

@@ -22,7 +22,7 @@ struct SoakResult {
   double largest_energy = 0.0;  ///< kinetic energy of the held object and elastic energy of the tool [J]
   double energy_early = 0.0;    ///< the same in the first tenth of the steps [J]
   double drift = 0.0;           ///< largest displacement of a resting object during a rest of 10 s [m]
-  long refused = 0;             ///< steps rejected as not finite or not bounded
+  long rejected = 0;            ///< steps rejected as not finite or not bounded
   bool finite = true;           ///< whether all results were finite
   double memory_early = 0.0;    ///< resident memory [bytes]: maximum in the first tenth of the steps
   double memory_late = 0.0;     ///< and in the last

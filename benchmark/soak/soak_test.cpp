@@ -28,7 +28,7 @@ TEST(Soak, TheSameSeedGivesTheSameBitsAndAnotherOneDoesNot) {
   EXPECT_NE(one.hash, other.hash);
   EXPECT_GE(one.steps, 1000);
   EXPECT_TRUE(one.finite);
-  EXPECT_EQ(one.refused, 0);
+  EXPECT_EQ(one.rejected, 0);
   EXPECT_GT(one.largest_energy, 0.0);
 }
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
+#include "benchmark/baselines.h"
 #include "benchmark/contact/impact_search.h"
 #include "benchmark/contact/motion_steps.h"
 #include "benchmark/contact/product_map.h"
-#include "benchmark/peers.h"
 
 namespace spring_workbench::benchmark::contact_test {
 namespace {
@@ -30,10 +30,10 @@ TEST(Drag, OursLagAsCoulombsLawSaysWithOneStepASample) {
 TEST(Drag, EveryEngineIsGivenTheSameScene) {
   // With small steps and without rocking, all methods agree on the lag, since they have the same springs, weight and
   // friction.
-  const Peers peers = all_peers();
-  if (peers.drags.empty()) GTEST_SKIP() << "no engine was found";
-  ASSERT_GE(peers.drags.size(), peers.found.size() - 1);  // at least one of each engine; SUNDIALS is none
-  for (const DragMethod& method : peers.drags) {
+  const Baselines baselines = all_baselines();
+  if (baselines.drags.empty()) GTEST_SKIP() << "no engine was found";
+  ASSERT_GE(baselines.drags.size(), baselines.found.size() - 1);  // at least one of each engine; SUNDIALS is none
+  for (const DragMethod& method : baselines.drags) {
     DragScene scene;
     scene.turns = !method.can_lock_turning;
     const DragRow row = run_drag(method, scene, 5e-4, 1);
@@ -44,8 +44,8 @@ TEST(Drag, EveryEngineIsGivenTheSameScene) {
 
 TEST(Drag, MujocosSolverIsNotDoneEarlierForTheWeightOfItsHand) {
   // Its tolerance is a multiple of the mean inertia. By that of the hand it ends too early, and the box rocks.
-  const Peers peers = all_peers();
-  for (const DragMethod& method : peers.drags) {
+  const Baselines baselines = all_baselines();
+  for (const DragMethod& method : baselines.drags) {
     if (method.name.find("mujoco") != 0) continue;
     const DragRow row = run_drag(method, DragScene(), 1e-3, 1);
     ASSERT_TRUE(row.finite) << method.name;

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "benchmark/peers.h"
+#include "benchmark/baselines.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/rod_table.h"
 #include "case_called.h"
@@ -23,7 +23,7 @@ namespace {
 using When = RodForce::When;
 
 const std::vector<RodEngine>& engines() {
-  static const Peers instance = all_peers();
+  static const Baselines instance = all_baselines();
   return instance.rods;
 }
 
@@ -134,9 +134,9 @@ TEST(RodForce, WhereTheRodDoesNotReachThereIsNoneFromThenOn) {
 }
 
 TEST(RodEngines, EachThatIsFoundHasAForceOfTheStartAndOfTheEndOfTheStep) {
-  const Peers peers = all_peers();
+  const Baselines baselines = all_baselines();
   EXPECT_EQ(std::count_if(engines().begin(), engines().end(), [](const RodEngine& e) { return !is_rk4(e); }),
-            2 * (static_cast<long>(peers.found.size()) - 1));  // SUNDIALS is none
+            2 * (static_cast<long>(baselines.found.size()) - 1));  // SUNDIALS is none
   std::set<std::string> names;
   for (const RodEngine& engine : engines()) names.insert(engine.name);
   EXPECT_EQ(names.size(), engines().size());
@@ -247,7 +247,7 @@ TEST(RodEngines, HaveTheirLinesInTheTableWhereNoDofIsOffAndWhatIsLostIsARow) {
   plan.cases[2].shapes = {"constant"};  // four coordinates
   plan.steps_per_output = {1, 4};
   plan.tolerances.clear();
-  plan.peer_tolerances = {1e-3};
+  plan.baseline_tolerances = {1e-3};
   plan.longest_run = plan.longest_engine_run = std::numeric_limits<double>::infinity();
   plan.tolerance_time_limit = 60.0;
   plan.repetition = {};

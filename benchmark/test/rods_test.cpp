@@ -412,10 +412,10 @@ TEST(StabilityMap, AStepByTheFallbackOrAtAStopHoldsButNotOnItsOwnWhateverTheInte
     counted.*counter = 1;
     EXPECT_TRUE(counted.held() && !counted.held_on_its_own());
   }
-  // Far above its limit RK4 leaves the rod's range; that counts apart, not as a refused step.
+  // Far above its limit RK4 leaves the rod's range; that counts apart, not as a rejected step.
   const StabilityOutcome rk4 = run_cell("rk4", "linear", cell_with(30.0, MapTail::rest));
   EXPECT_GT(rk4.stops + rk4.fallback, 0);
-  EXPECT_EQ(rk4.refused, 0);
+  EXPECT_EQ(rk4.rejected, 0);
 }
 
 TEST(StabilityMap, ManyHalvedStepsInALongFallAddNoEnergy) {
@@ -434,12 +434,12 @@ TEST(StabilityMap, ManyHalvedStepsInALongFallAddNoEnergy) {
 }
 
 TEST(StabilityMap, OutcomesAreOrderedByWhatIsWorst) {
-  const auto outcome = [](bool finite, bool bounded, double growth, int refused) {
+  const auto outcome = [](bool finite, bool bounded, double growth, int rejected) {
     StabilityOutcome o;
     o.finite = finite;
     o.bounded = bounded;
     o.energy_growth = growth;
-    o.refused = refused;
+    o.rejected = rejected;
     return o;
   };
   const std::vector<StabilityOutcome> worst_first = {outcome(false, false, 0.0, 0), outcome(true, false, 0.0, 9),

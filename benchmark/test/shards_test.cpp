@@ -10,9 +10,9 @@
 #include <sstream>
 #include <thread>
 
+#include "benchmark/baselines.h"
 #include "benchmark/error_table.h"
 #include "benchmark/our_methods.h"
-#include "benchmark/peers.h"
 #include "benchmark/report/parts.h"
 #include "benchmark/rod_table.h"
 #include "benchmark/stability_map.h"

@@ -82,13 +82,13 @@ class Run {
     double now = samples_.front().t;
     for (const motion::PoseSample& sample : samples_) {
       now = std::max(now, sample.t);
-      const hand_input::GateResult result = feed_.push_stylus(
+      const hand_input::GateResult result = filter_.push_stylus(
           {sample.t, sample.X.translation(), Quaterniond(sample.X.linear())}, RigidTransform::Identity(), {now, now});
-      while (const std::optional<double> stop = feed_.next_stop({now, now})) commit(*stop);
+      while (const std::optional<double> stop = filter_.next_stop({now, now})) commit(*stop);
       if (!hand_input::usable(result)) continue;
       for (std::size_t i = 0; i < kAhead.size(); ++i) {
         const double t = simulation_.newest_sample_time() + kAhead[i];
-        ahead_[i].show(simulation_, feed_, t);
+        ahead_[i].show(simulation_, filter_, t);
         const bodies::BodyState& box = ahead_[i].shown().objects()[0];
         if (box.held) shown_.emplace(t, Shown{i, box.X_WO});
       }
@@ -117,7 +117,7 @@ class Run {
       between_.advance_to(shown->first);
       compare(shown->second, between_);
     }
-    feed_.advance_to(stop);
+    filter_.advance_to(stop);
     const auto end = shown_.upper_bound(stop);
     for (auto shown = at_stop; shown != end; ++shown) compare(shown->second, simulation_);
     shown_.erase(shown_.begin(), end);
@@ -133,7 +133,7 @@ class Run {
   scene::Scene scene_;
   simulation::SimulationSettings settings_;
   simulation::Simulation simulation_{scene_, settings_}, between_{scene_, settings_};
-  hand_input::Feed feed_{simulation_, hand_input::InputSettings(), hand_input::Feed::Prediction::on};
+  hand_input::InputFilter filter_{simulation_, hand_input::InputSettings(), hand_input::InputFilter::Prediction::on};
   std::vector<live::LookAhead> ahead_;
   std::multimap<double, Shown> shown_;  ///< not committed yet, by time [s]
   std::array<Errors, kAhead.size()> errors_;

@@ -15,20 +15,20 @@ int main(int argc, char** argv) {
   }
   try {
     simulation::Simulation simulation(scene::load_scene(argv[1]), {});
-    // Samples of a tracker pass through a feed. It rejects samples that no hand can have made, and can release the
+    // Samples of a tracker pass through a filter. It rejects samples that no hand can have made, and can release the
     // object if the hand is lost.
-    hand_input::Feed feed(simulation, {});
+    hand_input::InputFilter filter(simulation, {});
     const std::unique_ptr<motion::StylusSource> hand = motion_files::open_motion(argv[2]);
     bool pressed = false;
     while (const auto sample = hand->next()) {
-      feed.push_stylus(*sample);
-      if (sample->button != pressed) feed.push_button(sample->t, pressed = sample->button);
+      filter.push_stylus(*sample);
+      if (sample->button != pressed) filter.push_button(sample->t, pressed = sample->button);
     }
 
     std::printf("t,object,x,y,z,held\n");
     const double end = simulation.newest_sample_time();
     for (int i = 0; 0.1 * i <= end + 1e-9; ++i) {
-      feed.advance_to(0.1 * i);
+      filter.advance_to(0.1 * i);
       for (const bodies::BodyState& object : simulation.objects()) {
         const Vector3d p = object.X_WO.translation();
         std::printf("%.1f,%s,%.6f,%.6f,%.6f,%d\n", 0.1 * i, object.name.c_str(), p.x(), p.y(), p.z(), object.held);

@@ -33,7 +33,7 @@ namespace validation {}
 }  // namespace spring_workbench
 
 #include "spring_workbench/dynamics/integrator.h"
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/simulation/simulation.h"

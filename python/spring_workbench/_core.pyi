@@ -37,7 +37,7 @@ class SettingDescription:
         """Effect of the setting, in one line."""
 
 class SimulationSettings:
-    """Settings of a simulation by key, each checked when it is set; what they must be together is checked by Simulation.
+    """Settings of a simulation by key. Each value is checked when it is set; combinations are checked by Simulation.
     setting_descriptions() explains each key. Settings cannot be read back: keep the dictionary."""
     def __init__(self, values: Dict[str, Any] = ...) -> None:
         """values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown
@@ -229,13 +229,12 @@ class ContactState:
 class AdvanceReport:
     """Report on one call of `advance_to`.
 
-    `steps` counts the steps that were taken. With a tolerance, or an integrator that is stable at any stiffness, an
-    attempt at a step that does not solve its equation or errs too much (without a tolerance: in energy) is discarded
-    and repeated as shorter ones; `substeps` counts the discarded attempts. Otherwise, or if none succeeds, an L-stable
-    rule takes the step (`steps_fallback`). If that rule fails, too, the fork is rigid for the step or, in contact, the
-    object stays in place (`steps_rejected`). If these three, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost`
-    are 0, nothing unusual happened. In contact, one step may need several integrations of the equation of motion, each
-    over a part of it.
+    A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
+    repeated as shorter ones; `substeps` counts the discarded attempts. If that does not help, or the integrator is
+    not stable at any stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is
+    rigid for the step or, in contact, the object stays in place (`steps_rejected`). If these three counters,
+    `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step
+    may take several integrations.
 
     An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
     of an error from above, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
@@ -387,8 +386,8 @@ class Simulation:
     def advance_to(self, t_end: float, pause: float = ...) -> AdvanceReport:
         """Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
-        Stops after the step that reaches `pause` [s]; another call to the same t_end goes on with the steps of a call
-        without a pause.
+        Stops after the step that reaches `pause` [s]; a further call with the same t_end continues, and
+        together they take the same steps as one call without a pause.
 
         If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still
         act. Raises InputError if t_end is not finite."""

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/tools/tool.h"
 
 namespace spring_workbench::assembly {
@@ -27,7 +27,7 @@ simulation::SimulationSettings with_all_hands(const scene::Scene& scene, simulat
 Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings& simulation_settings,
                 const OperatorSettings& operator_settings, double time_limit) {
   simulation::Simulation simulation(scene, with_all_hands(scene, simulation_settings));
-  hand_input::Feed feed(simulation, hand_input::InputSettings());
+  hand_input::InputFilter filter(simulation, hand_input::InputSettings());
   TaskMonitor monitor(simulation.scene());
   SimulatedOperator person(simulation.scene(), operator_settings, [&] { return operator_view(simulation); });
   Trial trial;
@@ -35,13 +35,13 @@ Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings&
   double before = 0.0;  // time of the previous samples [s]
   while (const std::optional<motion::StylusSample> sample = person.next()) {
     if (sample->t > time_limit) break;
-    feed.push_stylus(*sample, sample->hand);
-    if (sample->button != pressed[sample->hand]) feed.push_button(sample->t, sample->button, sample->hand);
+    filter.push_stylus(*sample, sample->hand);
+    if (sample->button != pressed[sample->hand]) filter.push_button(sample->t, sample->button, sample->hand);
     pressed[sample->hand] = sample->button;
     trial.motion.push_back(*sample);
     if (sample->hand + 1 < person.hands()) continue;
     if (sample->t > 0.0) {
-      trial.steps_rejected += feed.advance_to(before).steps_rejected;
+      trial.steps_rejected += filter.advance_to(before).steps_rejected;
       monitor.observe(simulation);
     }
     before = sample->t;

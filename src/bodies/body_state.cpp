@@ -22,13 +22,13 @@ BodyState at_start(const scene::Body& body) {
   return state;
 }
 
-void Changes::reset(std::size_t objects) {
+void ChangeLog::reset(std::size_t objects) {
   ++count_;
   links_.resize(objects + 1);
   for (std::size_t i = 0; i <= objects; ++i) links_[i] = {count_, i > 0 ? i - 1 : objects, i < objects ? i + 1 : 0};
 }
 
-void Changes::note(std::size_t object) {
+void ChangeLog::note(std::size_t object) {
   Link &link = links_[object], &end = links_.back();
   link.at = ++count_;
   links_[link.newer].older = link.older;
@@ -39,7 +39,7 @@ void Changes::note(std::size_t object) {
   end.older = object;
 }
 
-std::vector<std::size_t> Changes::since(const Revision& then) const {
+std::vector<std::size_t> ChangeLog::since(const Revision& then) const {
   const std::uint64_t count = then.of == self_ ? then.count : 0;
   std::vector<std::size_t> objects;
   for (std::size_t i = links_.back().older; i + 1 < links_.size() && links_[i].at > count; i = links_[i].older)
@@ -48,7 +48,7 @@ std::vector<std::size_t> Changes::since(const Revision& then) const {
   return objects;
 }
 
-std::vector<std::size_t> Changes::differing(const Changes& other) const {
+std::vector<std::size_t> ChangeLog::differing(const ChangeLog& other) const {
   const std::vector<std::size_t> here = since(own_), there = other.since(others_);
   std::vector<std::size_t> objects;
   std::set_union(here.begin(), here.end(), there.begin(), there.end(), std::back_inserter(objects));

@@ -105,7 +105,7 @@ std::vector<double> read_numbers(const YAML::Node& node, const std::string& wher
 }
 
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key) {
-  const std::string rule = "x y z qx qy qz qw (7 finite numbers, the quaternion nonzero)";
+  const std::string rule = "x y z qx qy qz qw (7 finite numbers, with a nonzero quaternion)";
   const std::vector<double> v = read_numbers(node, where, key, 7, rule);
   const Quaterniond q(v[6], v[3], v[4], v[5]);
   if (!(q.norm() > 1e-6)) refuse_node(node, where, key, rule);

@@ -87,7 +87,7 @@ constexpr double min_step = 1e-9;
 /// more tries before a body is blocked. Test: LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 1e-3.
 constexpr double min_substep = 1e-5;
 /// [s] for which a held body is blocked if no motion is possible. Test: none: with the next ones changed, too, a cell
-/// of `dynamic` at its extremes fell.
+/// of the limit cases of `dynamic` fell.
 constexpr double blocked_substep = 2e-4;
 /// Shortest next try, as a fraction of the substep. Test: none: see `blocked_substep`.
 constexpr double min_retry = 0.1;

@@ -110,7 +110,7 @@ void ContactLog::take(std::size_t object, const ContactLog& from, std::size_t it
 
 void ContactLog::exchange(math::StateArchive& state) {
   for (const std::size_t object : with_contacts_) {
-    if (state.sets()) touching_[object].clear();
+    if (state.is_restoring()) touching_[object].clear();
   }
   state(with_contacts_);
   for (const std::size_t object : with_contacts_) state(touching_.at(object));

@@ -6,14 +6,6 @@
 
 namespace spring_workbench::dynamics {
 
-/// `columns` times the first column of `x`.
-template <int n, int columns, typename Matrix>
-Eigen::Matrix<double, n, columns> side_by_side(const Matrix& x) {
-  Eigen::Matrix<double, n, columns> all;
-  for (int e = 0; e < n * columns; ++e) all(e) = x(e % n);
-  return all;
-}
-
 /// q̈ at up to four moments side by side: at each its state, in a column of `q` and `q_dot`.
 template <int n, int columns>
 Eigen::Matrix<double, n, columns> accelerations(const HeldBody& body, const HandleForcings& handle,

@@ -16,7 +16,7 @@ void ActiveCoordinates::take_modes() {
 
 void ActiveCoordinates::exchange(math::StateArchive& state) {
   state(mode_, return_);
-  if (state.sets()) take_modes();
+  if (state.is_restoring()) take_modes();
 }
 
 void ActiveCoordinates::set(const rod::CoordinateRange& range, bool on, double t, double return_time,

@@ -36,7 +36,7 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
   r.r_EO = tip.R_HE * math::three(p_EO_);
   r.R_HO = tip.R_HE * math::three_by_three(R_EO_);
   r.p_HO = tip.p_HE + r.r_EO;
-  math::Three<S> w_rel = math::none<S>(), v_E = math::none<S>();  // of the tip, in the turning frame H
+  math::Three<S> w_rel = math::zero<S>(), v_E = math::zero<S>();  // of the tip, in the turning frame H
   math::Three<S> alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
   rod::add_tip_motion(tip, coordinates_.count(), q_dot, w_rel, v_E);
   if (returning()) rod::add_tip_motion(tip, coordinates_.count(), q_ddot, alpha_rel, a_E);

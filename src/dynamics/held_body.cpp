@@ -24,7 +24,7 @@ void HeldBody::changed() {
 void HeldBody::exchange(math::StateArchive& state) {
   state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, load_W_, loaded_,
         couplings_);
-  if (state.sets()) derive();
+  if (state.is_restoring()) derive();
 }
 
 void HeldBody::derive() {

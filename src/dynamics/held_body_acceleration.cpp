@@ -41,7 +41,7 @@ template <int n>
 Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const Eigen::Matrix<double, n, 1>& q,
                                                    const Eigen::Matrix<double, n, 1>& q_dot) const {
   const ForcingOf<double> forcing{h.t,
-                                  {math::three_by_three(h.X_WH.linear()), math::none<double>(), math::three(h.w_WH_H),
+                                  {math::three_by_three(h.X_WH.linear()), math::zero<double>(), math::three(h.w_WH_H),
                                    math::three(h.alpha_WH_H), math::three(h.proper_acceleration_H)},
                                   h.relative_motions};
   Eigen::Matrix<double, n, 1> q_ddot;

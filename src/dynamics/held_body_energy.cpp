@@ -60,7 +60,7 @@ Couplings::Reading HeldBody::read_couplings(const HandleForcing& h, const Strain
   if (!coupled()) return {};
   const StrainState full = full_state(h.t, state);
   const rod::TipOf<double>& tip = this->tip(full.q.data(), full.q_dot.data(), false);
-  math::Three<double> w = math::none<double>(), v = w;
+  math::Three<double> w = math::zero<double>(), v = w;
   rod::add_tip_motion(tip, coordinates_.count(), full.q_dot.data(), w, v);
   const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_);
   const Matrix3d& R_WH = h.X_WH.linear();

@@ -99,7 +99,7 @@ motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& 
   if (returning()) coordinates_.prescribe(h.t, 0, q, rate, acceleration);
   const rod::TipOf<double>& tip = this->tip(q, rate, q_ddot != nullptr);
   // Of the tip, in the turning frame H.
-  math::Three<double> w = math::none<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
+  math::Three<double> w = math::zero<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
   rod::add_tip_motion(tip, coordinates_.count(), rate, w, v);
   if (q_ddot != nullptr) rod::add_tip_motion(tip, coordinates_.count(), acceleration, alpha, a);
   const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_), p_HO = tip.p_HE + r_EO,

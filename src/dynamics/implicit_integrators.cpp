@@ -8,6 +8,7 @@
 #include "spring_workbench/dynamics/linearised_motion.h"
 #include "spring_workbench/math/by_size.h"
 #include "spring_workbench/math/rodas.h"
+#include "spring_workbench/math/side_by_side.h"
 
 namespace spring_workbench::dynamics {
 StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
@@ -64,7 +65,7 @@ LinearisedMotion rodas_steps(const HeldBody& body, const motion::FrameMotion& ha
   using Columns = Eigen::Matrix<double, n, columns>;
   const double dt = time_difference * h[0];
   const auto a = accelerations(body, body.forcing(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
-                               side_by_side<n, math::pack_size>(q), side_by_side<n, math::pack_size>(v));
+                               math::side_by_side<n, math::pack_size>(q), math::side_by_side<n, math::pack_size>(v));
   Column by_time;
   for (int i = 0; i < n; ++i) by_time[i] = (-3.0 * a(i, 0) + 4.0 * a(i, 1) - a(i, 2)) / (2.0 * dt);
   const LinearisedMotion motion(body, body.forcing(handle, t), body.forcing(handle, t + math::Pack{}),
@@ -72,7 +73,7 @@ LinearisedMotion rodas_steps(const HeldBody& body, const motion::FrameMotion& ha
   const math::ImplicitMatrix first = motion.implicit(math::Rodas::gamma * h[0]),
                              last = motion.implicit(math::Rodas::gamma * h[columns - 1]);
   const auto acceleration = [&](double c, const Columns& q_c, const Columns& v_c) {
-    if (c == 0.0) return side_by_side<n, columns>(a);
+    if (c == 0.0) return math::side_by_side<n, columns>(a);
     const double longer = h[0], shorter = h[columns - 1];
     return accelerations(body, body.forcing(handle, t + c * math::Pack{longer, shorter, shorter, shorter}), q_c, v_c);
   };
@@ -81,7 +82,7 @@ LinearisedMotion rodas_steps(const HeldBody& body, const motion::FrameMotion& ha
     for (int k = 0; k < columns; ++k) x.col(k) = (k == 0 ? first : last).solve(Column(b.col(k)));
     return x;
   };
-  math::Rodas::steps(motion.M, motion.K, h, acceleration, side_by_side<n, columns>(by_time), solve, q, v);
+  math::Rodas::steps(motion.M, motion.K, h, acceleration, math::side_by_side<n, columns>(by_time), solve, q, v);
   return motion;
 }
 
@@ -91,7 +92,7 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
                               StrainState& state) {
   return math::by_size(body.size(), [&](auto size) -> StepEstimate {
     constexpr int n = decltype(size)::value;
-    Eigen::Matrix<double, n, 2> q = side_by_side<n, 2>(state.q), v = side_by_side<n, 2>(state.q_dot);
+    Eigen::Matrix<double, n, 2> q = math::side_by_side<n, 2>(state.q), v = math::side_by_side<n, 2>(state.q_dot);
     last_ = rodas_steps<n, 2>(body, handle, t, {h, 0.5 * h}, q, v);  // the whole, and the first half
     Eigen::Matrix<double, n, 1> q_end = q.col(1), v_end = v.col(1);
     if (q_end.allFinite() && v_end.allFinite()) {

@@ -10,6 +10,7 @@
 #include "integrators.h"
 #include "paper.h"
 #include "spring_workbench/dynamics/linearised_motion.h"
+#include "spring_workbench/math/quintic.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::dynamics {
@@ -89,39 +90,42 @@ StepEstimate SemiImplicitEuler::step(const HeldBody& body, const motion::FrameMo
   return {h * h / 6.0 * (4.0 * a - a_end), 0.0, 0.5 * h * (a - a_end)};
 }
 
-namespace {
-
-struct QuinticPoint {
-  rod::StrainVector q, q_dot, q_ddot;
-};
-
-/// The quintic through state and acceleration at both ends of a step of `h` [s], at its fraction `u`, 0 … 1.
-QuinticPoint quintic(const StrainState& begin, const rod::StrainVector& a_begin, const StrainState& end,
-                     const rod::StrainVector& a_end, double h, double u) {
-  // q₀ + u (h v₀ + u (h² a₀ / 2 + u (c₃ + u (c₄ + u c₅)))).
-  const rod::StrainVector rise = end.q - begin.q - h * begin.q_dot - 0.5 * h * h * a_begin;
-  const rod::StrainVector slope = h * (end.q_dot - begin.q_dot) - h * h * a_begin;
-  const rod::StrainVector bend = h * h * (a_end - a_begin);
-  const rod::StrainVector c3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
-  const rod::StrainVector c4 = -15.0 * rise + 7.0 * slope - bend;
-  const rod::StrainVector c5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
-  return {begin.q + u * (h * begin.q_dot + u * (0.5 * h * h * a_begin + u * (c3 + u * (c4 + u * c5)))),
-          begin.q_dot + u * h * a_begin + u * u / h * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)),
-          a_begin + u / (h * h) * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))};
+void SemiImplicitEuler::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                                            const StrainState& begin, const StrainState& end, StrainState& deviation) {
+  const rod::StrainVector q = begin.q + deviation.q, q_dot = begin.q_dot + deviation.q_dot;
+  deviation.q_dot = q_dot + h * body.acceleration(body.forcing(handle, t), q, q_dot) - end.q_dot;
+  deviation.q = q + h * (end.q_dot + deviation.q_dot) - end.q;
 }
 
-struct StepEnd {
-  const StrainState& state;
-  const rod::StrainVector& q_ddot;
-};
+namespace {
+
+using Point = math::CurvePoint<rod::StrainVector>;
+
+/// The state and the acceleration that belongs to it.
+Point point(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
+  return {state.q, state.q_dot, body.acceleration(handle, state.q, state.q_dot)};
+}
+
+/// The state after a step by the classical method.
+StrainState classical_step(const HeldBody& body, const HandleForcing& middle, const HandleForcing& end, double h,
+                           const Point& begin) {
+  const auto& [q, v, a] = begin;
+  const rod::StrainVector v2 = v + 0.5 * h * a;
+  const rod::StrainVector a2 = body.acceleration(middle, q + 0.5 * h * v, v2);
+  const rod::StrainVector v3 = v + 0.5 * h * a2;
+  const rod::StrainVector a3 = body.acceleration(middle, q + 0.5 * h * v2, v3);
+  const rod::StrainVector v4 = v + h * a3;
+  const rod::StrainVector a4 = body.acceleration(end, q + h * v3, v4);
+  return {q + h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4), v + h / 6.0 * (a + 2.0 * a2 + 2.0 * a3 + a4)};
+}
 
 /// Estimates the error of a step of order up to four from the defect of the quintic at a quarter and three quarters.
-StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
-                       const StepEnd& begin, const StepEnd& end) {
+StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const Point& begin,
+                       const Point& end) {
   // The quintic's second derivative by an end that is off by (e, h ė = g): (H'' e + G'' g) / h², H and G its shapes.
   const auto defect = [&](double u) {
-    const QuinticPoint p = quintic(begin.state, begin.q_ddot, end.state, end.q_ddot, h, u);
-    return rod::StrainVector(h * h * (p.q_ddot - body.acceleration(body.forcing(handle, t + u * h), p.q, p.q_dot)));
+    const Point p = math::quintic(begin, end, h, u);
+    return rod::StrainVector(h * h * (p.x_ddot - body.acceleration(body.forcing(handle, t + u * h), p.x, p.x_dot)));
   };
   const rod::StrainVector d1 = defect(0.25), d3 = defect(0.75);
   const rod::StrainVector g = (d1 + d3) / 2.25;  // H''(¼) = −H''(¾) = 5.625, G''(¼) = −1.6875, G''(¾) = 3.9375
@@ -132,20 +136,18 @@ StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, 
 
 StepEstimate RungeKutta4::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                StrainState& state) {
-  const StrainState s0 = state;
-  const rod::StrainVector a1 = body.acceleration(body.forcing(handle, t), s0.q, s0.q_dot);
-  const HandleForcing middle = body.forcing(handle, t + 0.5 * h);
+  const Point begin = point(body, body.forcing(handle, t), state);
   const HandleForcing end = body.forcing(handle, t + h);
-  const rod::StrainVector v2 = s0.q_dot + 0.5 * h * a1;
-  const rod::StrainVector a2 = body.acceleration(middle, s0.q + 0.5 * h * s0.q_dot, v2);
-  const rod::StrainVector v3 = s0.q_dot + 0.5 * h * a2;
-  const rod::StrainVector a3 = body.acceleration(middle, s0.q + 0.5 * h * v2, v3);
-  const rod::StrainVector v4 = s0.q_dot + h * a3;
-  const rod::StrainVector a4 = body.acceleration(end, s0.q + h * v3, v4);
-  state.q = s0.q + h / 6.0 * (s0.q_dot + 2.0 * v2 + 2.0 * v3 + v4);
-  state.q_dot = s0.q_dot + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
-  const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
-  return end_error(body, handle, t, h, {s0, a1}, {state, a_end});
+  state = classical_step(body, body.forcing(handle, t + 0.5 * h), end, h, begin);
+  return end_error(body, handle, t, h, begin, point(body, end, state));
+}
+
+void RungeKutta4::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                                      const StrainState& begin, const StrainState& end, StrainState& deviation) {
+  const StrainState other{begin.q + deviation.q, begin.q_dot + deviation.q_dot};
+  const auto [q, q_dot] = classical_step(body, body.forcing(handle, t + 0.5 * h), body.forcing(handle, t + h), h,
+                                         point(body, body.forcing(handle, t), other));
+  deviation = {q - end.q, q_dot - end.q_dot};
 }
 
 }  // namespace spring_workbench::dynamics

@@ -10,6 +10,8 @@ class SemiImplicitEuler final : public Integrator {
   int order() const override { return 1; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                           const StrainState& begin, const StrainState& end, StrainState& deviation) override;
 };
 
 /// The classical Runge–Kutta method of order four. Unstable for ω h > 2.8.
@@ -18,6 +20,8 @@ class RungeKutta4 final : public Integrator {
   int order() const override { return 4; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                           const StrainState& begin, const StrainState& end, StrainState& deviation) override;
 };
 
 }  // namespace spring_workbench::dynamics

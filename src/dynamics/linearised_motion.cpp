@@ -5,6 +5,7 @@
 #include "accelerations.h"
 #include "constants.h"
 #include "spring_workbench/math/by_size.h"
+#include "spring_workbench/math/side_by_side.h"
 #include "spring_workbench/rod/difference_steps.h"
 
 namespace spring_workbench::dynamics {
@@ -24,7 +25,8 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
     constexpr int n = decltype(size)::value;
     const Eigen::Matrix<double, n, 1> a = q_ddot;
     for (int first = 0; first < 2 * n; first += math::pack_size) {  // strains, then rates: one in each lane
-      auto q = side_by_side<n, math::pack_size>(state.q), q_dot = side_by_side<n, math::pack_size>(state.q_dot);
+      auto q = math::side_by_side<n, math::pack_size>(state.q),
+           q_dot = math::side_by_side<n, math::pack_size>(state.q_dot);
       const int used = std::min(math::pack_size, 2 * n - first);
       for (int k = 0; k < used; ++k) {
         const int j = first + k;

@@ -31,13 +31,13 @@ File open_ours(const std::string& path) {
   // Does not follow a symbolic link, and does not wait for the writer of a FIFO.
   const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0 && errno == ENOENT) return File(nullptr, std::fclose);
-  if (descriptor < 0) refuse(path, errno == ELOOP ? "a symbolic link" : std::strerror(errno));
+  if (descriptor < 0) refuse(path, errno == ELOOP ? "it is a symbolic link" : std::strerror(errno));
   File file(fdopen(descriptor, "r"), std::fclose);
   struct stat status {};
-  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) refuse(path, "not a regular file");
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) refuse(path, "it is not a regular file");
   std::string begin(header.size(), '\0');
   begin.resize(std::fread(begin.data(), 1, begin.size(), file.get()));
-  if (begin != header) refuse(path, "a file of another program");
+  if (begin != header) refuse(path, "it belongs to another program");
   return file;
 }
 

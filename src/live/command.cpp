@@ -60,7 +60,7 @@ std::vector<std::uint64_t> Command::words() const {
   if (kind == Kind::none) return {};
   math::StateArchive archive;
   Command(*this).exchange(archive);
-  return std::move(archive).taken();
+  return std::move(archive).words();
 }
 
 Command Command::from(const std::vector<std::uint64_t>& words) {

@@ -7,39 +7,39 @@
 
 namespace spring_workbench::live {
 
-void LookAhead::show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t) {
+void LookAhead::show(const simulation::Simulation& committed, const hand_input::InputFilter& filter, double t) {
   copy_.copy_state_from(committed);
   has_followed_ = true;
-  if (feed.has_sample()) {
-    feed.predict(t, copy_);
+  if (filter.has_sample()) {
+    filter.predict(t, copy_);
     copy_.advance_to(t);
   }
   for (const Held& one : held_in_copy_.of(copy_)) shown_.push_back(one);
 }
 
-double LookAhead::show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
-                              const Pace& pace) {
+double LookAhead::show_newest(const simulation::Simulation& committed, const hand_input::InputFilter& filter,
+                              double horizon, const Pace& pace) {
   const double newest = committed.newest_sample_time();
   if (up_to_date_ && horizon == 0.0) return std::max(copy_.time() - newest, 0.0);
   double t = committed.time();
-  if (feed.has_sample()) {
+  if (filter.has_sample()) {
     const double ahead = std::max(newest + horizon, shown_until_);
     if (pace.can_look_ahead(ahead - t)) t = std::max(ahead, t);
     if (t < shown_until_) return 0.0;
     shown_until_ = t;
   }
-  show(committed, feed, t);
+  show(committed, filter, t);
   up_to_date_ = horizon == 0.0;
   return std::max(t - newest, 0.0);
 }
 
-StepTime LookAhead::time_of_step(const simulation::Simulation& committed, const hand_input::Feed& feed,
+StepTime LookAhead::time_of_step(const simulation::Simulation& committed, const hand_input::InputFilter& filter,
                                  const Pace& pace) {
   const simulation::SimulationState shown = copy_.save();
   copy_.copy_state_from(committed);
   StepTime step{copy_.settings().dynamics.step / copy_.settings().hand_time_scale, 0.0};
   const double end = copy_.time() + 2.0 * step.lasts;
-  feed.predict(end, copy_);
+  filter.predict(end, copy_);
   copy_.advance_to(end - step.lasts);
   const double begin = pace.now();
   copy_.advance_to(end);
@@ -89,7 +89,7 @@ void LookAhead::restart() {
 
 std::vector<LookAhead::Held> LookAhead::HeldObjects::of(const simulation::Simulation& simulation) {
   const std::vector<bodies::BodyState>& objects = simulation.objects();
-  const bodies::Changes& changes = simulation.object_changes();
+  const bodies::ChangeLog& changes = simulation.object_changes();
   if (at_.of != changes.now().of) held_.clear();
   for (const std::size_t i : changes.since(at_)) {
     held_.erase(i);

@@ -7,7 +7,7 @@ namespace spring_workbench::live {
 
 void SharedStates::follow(const simulation::Simulation& simulation) {
   const std::vector<bodies::BodyState>& states = simulation.objects();
-  const bodies::Changes& changes = simulation.object_changes();
+  const bodies::ChangeLog& changes = simulation.object_changes();
   const std::vector<std::size_t> changed = changes.since(at_);
   at_ = changes.now();
   if (changed.empty() && states.size() == size_) return;

@@ -25,14 +25,14 @@ class SimulationRunner::RecordedChange {
 
  private:
   SimulationRunner& runner_;
-  const double committed_ = runner_.feed_.committed(), target_ = runner_.feed_.target();
+  const double committed_ = runner_.filter_.committed(), target_ = runner_.filter_.target();
   Change change_;
 };
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                    const hand_input::InputSettings& input, bool simulated_time, Pace pace)
     : simulation_(scene, settings),
-      feed_(simulation_, input, hand_input::Feed::Prediction::on),
+      filter_(simulation_, input, hand_input::InputFilter::Prediction::on),
       ahead_(scene, settings),
       scene_(std::make_shared<const scene::Scene>(simulation_.scene())),
       task_(scene),
@@ -74,20 +74,20 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   for (const auto& [hand, came] : events)
     std::copy(came.begin(), came.end(), std::back_inserter(inputs_.at(hand).waiting));
   feed(now);
-  if (!feed_.is_interrupted()) work_ = {};
+  if (!filter_.is_interrupted()) work_ = {};
   CycleReport report;
   report.time_skipped = times_.take_skipped();
-  std::optional<double> stop = feed_.next_stop(now);
-  for (bool silent = true; silent && stop; stop = feed_.next_stop(now)) {
+  std::optional<double> stop = filter_.next_stop(now);
+  for (bool silent = true; silent && stop; stop = filter_.next_stop(now)) {
     silent = *stop < simulation_.next_event_time() && pace_.now() - begin < longest_cycle;
-    const double pause = pace_.end_of_cycle(feed_.committed(), *stop, simulation_.settings().dynamics.step);
-    report.add({feed_.advance_to(*stop, pause), 0.0, ahead_.compare(simulation_)});
+    const double pause = pace_.end_of_cycle(filter_.committed(), *stop, simulation_.settings().dynamics.step);
+    report.add({filter_.advance_to(*stop, pause), 0.0, ahead_.compare(simulation_)});
     task_.observe(simulation_);
     ++revision_;
   }
   report.more = stop.has_value();
   for (HandInput& input : inputs_) input.add_to(report);
-  report.input_age += feed_.time_since_arrival(now);
+  report.input_age += filter_.time_since_arrival(now);
   report.wall_time = pace_.now() - begin;
   work_.add(report);
   const double lag = simulation_.newest_sample_time() - simulation_.time();
@@ -102,7 +102,7 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
     while (!input.waiting.empty()) {
       const auto* epoch = std::get_if<NewEpoch>(&input.waiting.front());
       const bool restarts = epoch != nullptr && !joins(input, *epoch);
-      if (restarts && simulated_time_ && feed_.next_stop(now)) break;
+      if (restarts && simulated_time_ && filter_.next_stop(now)) break;
       if (times_.knows(input.hand) || epoch != nullptr) feed(input, input.waiting.front());  // else from before a jump
       input.waiting.pop_front();
     }
@@ -116,31 +116,31 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event))
     return std::visit([&](const auto& e) { apply(input, e); }, event);
   const double newest = simulation_.newest_sample_time();
-  if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.report_arrival(pose->arrival, input.hand);
-  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_edge(newest, button->edge, input.hand);
+  if (const auto* pose = std::get_if<StylusPose>(&event)) filter_.report_arrival(pose->arrival, input.hand);
+  if (const auto* button = std::get_if<StylusButton>(&event)) filter_.push_edge(newest, button->edge, input.hand);
   if (const auto* wrench = std::get_if<StylusWrench>(&event)) push(input, *wrench, newest);
 }
 
 std::optional<Shown> SimulationRunner::show(double latency, const hand_input::LocalTime& now, const Wanted& wanted) {
   const Lock lock(mutex_);
   const double horizon =
-      latency > 0.0 ? std::min(latency + feed_.time_since_arrival(now), motion::PosePredictor::farthest) : 0.0;
-  const double beyond = ahead_.show_newest(simulation_, feed_, horizon, pace_);
+      latency > 0.0 ? std::min(latency + filter_.time_since_arrival(now), motion::PosePredictor::farthest) : 0.0;
+  const double beyond = ahead_.show_newest(simulation_, filter_, horizon, pace_);
   const simulation::Simulation& shown = ahead_.shown();
-  const Progress at = progress_at(shown.time(), feed_.has_sample());
+  const Progress at = progress_at(shown.time(), filter_.has_sample());
   if (!ahead_.has_followed() || !wanted(at)) return std::nullopt;
   return Shown{{at, view_of(shown, scene_, shown_objects_)}, beyond};
 }
 
 std::optional<Committed> SimulationRunner::committed(const Wanted& wanted) const {
   const Lock lock(mutex_);
-  const Progress at = progress_at(simulation_.time(), std::isfinite(feed_.committed()));
+  const Progress at = progress_at(simulation_.time(), std::isfinite(filter_.committed()));
   if (!wanted(at)) return std::nullopt;
   return Committed{{at, view_of(simulation_, scene_, objects_)}, task_.placements(), task_.score(), work_};
 }
 
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
-  return (feed_.has_sample() || !simulated_time_) && times_.joins(input.hand, epoch.zero, simulation_.time());
+  return (filter_.has_sample() || !simulated_time_) && times_.joins(input.hand, epoch.zero, simulation_.time());
 }
 
 void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
@@ -154,17 +154,17 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
     restart_time();
     times_.begin(input.hand, epoch.zero);
   }
-  feed_.restart_gate(input.hand);
+  filter_.restart_gate(input.hand);
   input.monitor.restart();
 }
 
 /// A hand's time as simulation time [s]. If too far ahead, all hands' times move to a step after the newest input.
 double SimulationRunner::time_of(const HandInput& input, double t) {
   const double ahead = times_.time_of(input.hand, t) - std::max(simulation_.time(), simulation_.newest_sample_time());
-  if (feed_.has_sample() && ahead > (was_behind_ ? 0.0 : longest_catch_up)) {
+  if (filter_.has_sample() && ahead > (was_behind_ ? 0.0 : longest_catch_up)) {
     was_behind_ = false;
     times_.skip(std::max(ahead - simulation_.settings().dynamics.step, 0.0));
-    for (const HandInput& other : inputs_) feed_.restart_gate(other.hand);
+    for (const HandInput& other : inputs_) filter_.restart_gate(other.hand);
   }
   return times_.time_of(input.hand, t);
 }
@@ -172,28 +172,28 @@ double SimulationRunner::time_of(const HandInput& input, double t) {
 void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
   hand_input::RawSample sample = pose.sample;
   if (std::isfinite(sample.t)) sample.t = time_of(input, sample.t);
-  const hand_input::GateResult result = feed_.push_stylus(sample, pose.X_WP, pose.arrival, input.hand);
+  const hand_input::GateResult result = filter_.push_stylus(sample, pose.X_WP, pose.arrival, input.hand);
   if (!hand_input::usable(result)) return input.rejected.push_back({result, pose});
   input.used(sample.t, pose);
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
-  feed_.push_edge(time_of(input, button.t), button.edge, input.hand);
+  filter_.push_edge(time_of(input, button.t), button.edge, input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
-  feed_.buttons_known(time_of(input, known.t), known.arrival, input.hand);
+  filter_.buttons_known(time_of(input, known.t), known.arrival, input.hand);
 }
 
 void SimulationRunner::push(HandInput& input, StylusWrench wrench, double t) {
   wrench.sample.t = t;
-  feed_.push_external_wrench(wrench.sample, input.hand);
+  filter_.push_external_wrench(wrench.sample, input.hand);
 }
 
 void SimulationRunner::restart_time() {
   places_.clear();
   task_.reset();
-  feed_.restart();
+  filter_.restart();
   ahead_.allow_time_back();
 }
 
@@ -250,8 +250,8 @@ ChangeReport SimulationRunner::change_to(NextScene& next, const std::string& wha
 void SimulationRunner::keep_journal(bool keep) {
   const Lock lock(mutex_);
   keeps_journal_ = keep;
-  if (!keep) return feed_.record(nullptr);
-  feed_.record([this](const hand_input::AcceptedInput& accepted) {
+  if (!keep) return filter_.record(nullptr);
+  filter_.record([this](const hand_input::AcceptedInput& accepted) {
     journal_.note(accepted.committed, accepted.target, times_.stamp_of(accepted.t), accepted);
   });
   const RecordedChange noted(*this, "the journal begins", {});
@@ -259,18 +259,18 @@ void SimulationRunner::keep_journal(bool keep) {
 
 void SimulationRunner::note_state() {
   const Lock lock(mutex_);
-  if (keeps_journal_) journal_.note(feed_.committed(), feed_.target(), stamp(), comparison_of(simulation_));
+  if (keeps_journal_) journal_.note(filter_.committed(), filter_.target(), stamp(), comparison_of(simulation_));
 }
 
 std::optional<std::int64_t> SimulationRunner::stamp() const {
-  return feed_.has_sample() ? std::make_optional(times_.stamp_of(simulation_.time())) : std::nullopt;
+  return filter_.has_sample() ? std::make_optional(times_.stamp_of(simulation_.time())) : std::nullopt;
 }
 
 HandStatistics SimulationRunner::hand_statistics(std::size_t hand) const {
   const Lock lock(mutex_);
   const HandInput& input = inputs_.at(hand);
-  return {input.monitor.figures(), feed_.gate_counts(hand), feed_.reacquisition_counts(hand), feed_.tracker_moves(hand),
-          input.newest_arrival};
+  return {input.monitor.figures(), filter_.gate_counts(hand), filter_.reacquisition_counts(hand),
+          filter_.tracker_moves(hand), input.newest_arrival};
 }
 
 }  // namespace spring_workbench::live

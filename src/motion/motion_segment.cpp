@@ -100,7 +100,7 @@ OwnAxesMotion MotionSegment::of_samples(double t) const {
 SPRING_WORKBENCH_WIDE FrameForcing<math::Pack> MotionSegment::of_samples(const math::Pack& t, double gravity) const {
   const math::ThreeByThree<double> R_a = math::three_by_three(X_a_.linear());
   const math::Three<double> up = gravity * math::Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
-  const math::Three<math::Pack> zero = math::none<math::Pack>();
+  const math::Three<math::Pack> zero = math::zero<math::Pack>();
   FrameForcing<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero, zero + up};
   if (!moving_) return f;
   const double per_second = 1.0 / (end_ - begin_);

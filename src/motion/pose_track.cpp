@@ -99,7 +99,7 @@ void PoseTrack::clear() {
 
 void PoseTrack::exchange(math::StateArchive& state) {
   state(nodes_);
-  if (state.sets()) current_valid_ = false;
+  if (state.is_restoring()) current_valid_ = false;
 }
 
 bool PoseTrack::joined(std::size_t k) const {

@@ -43,8 +43,8 @@ ScriptedSource::ScriptedSource(const std::string& path) {
     if (waypoint.t * rate_ > most_samples) {
       using validation::number_text;
       validation::refuse(config::place(list[i], path), name + ".t", list[i]["t"].Scalar(),
-                         "at most " + number_text(most_samples / rate_) + " s after the first, which at rate = " +
-                             number_text(rate_) + " Hz are " + number_text(most_samples) + " samples");
+                         "at most " + number_text(most_samples / rate_) + " s after the first (" +
+                             number_text(most_samples) + " samples at rate = " + number_text(rate_) + " Hz)");
     }
     waypoints_.push_back(waypoint);
   }

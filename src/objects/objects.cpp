@@ -242,7 +242,7 @@ void Objects::Archive::exchange(math::StateArchive& state) {
   const std::vector<std::size_t> present = moved();
   std::vector<std::size_t> kept = present;
   state(kept);
-  for (std::size_t k = 0; state.sets() && k < present.size(); ++k) {
+  for (std::size_t k = 0; state.is_restoring() && k < present.size(); ++k) {
     of_.objects_[present[k]] = Object();
     of_.take_state(present[k], {of_.body(present[k]).X_WO, Twist(), {}});
     of_.states_[present[k]] = bodies::at_start(of_.body(present[k]));
@@ -255,7 +255,7 @@ void Objects::Archive::exchange(math::StateArchive& state, const std::vector<std
     Object& object = of_.objects_.at(i);
     bool flies = object.free_body != nullptr;
     state(of_.states_[i], object.rows, object.grasping, object.pushing, object.slow_since, flies);
-    if (state.sets()) {
+    if (state.is_restoring()) {
       const bodies::BodyState& o = of_.state(i);
       of_.take_state(i, {o.X_WO, o.V_WO_W, {}});
       object.free_body = nullptr;

@@ -84,15 +84,15 @@ void BulletWorld::exchange(math::StateArchive& state) {
   for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
     objects.push_back(world_.getCollisionObjectArray()[i]->getUserIndex());
   }
-  if (state.sets()) {
+  if (state.is_restoring()) {
     for (const int index : objects) world_.removeRigidBody(&object(index));
   }
   for (Item& item : items_) {
     state(item.X_WO, item.V_WO_W, item.near_at, item.in_world);
-    if (state.sets()) update_box(item);
+    if (state.is_restoring()) update_box(item);
   }
   state(steps_, in_world_, objects, surfaces_);
-  if (state.sets()) {
+  if (state.is_restoring()) {
     for (const int index : objects) {
       if (index >= 0 && !items_.at(static_cast<std::size_t>(index)).bullet)
         make_bullet(static_cast<std::size_t>(index));
@@ -113,7 +113,7 @@ void BulletWorld::exchange_body(math::StateArchive& state, int index) {
   double slow_for = body.getDeactivationTime();
   state(body.getWorldTransform(), body.getInterpolationWorldTransform(), v, w, v_next, w_next, activation, slow_for);
   if (index >= 0) state(items_[static_cast<std::size_t>(index)].X_at_query);
-  if (!state.sets()) return;
+  if (!state.is_restoring()) return;
   body.clearForces();
   body.setLinearVelocity(v);
   body.setAngularVelocity(w);
@@ -133,7 +133,7 @@ void BulletWorld::exchange_pairs(math::StateArchive& state, const std::vector<in
     pairs.push_back(
         {index_of(*pair.m_pProxy0), index_of(*pair.m_pProxy1), pair.m_algorithm != nullptr, parts_of(pair)});
   }
-  while (state.sets() && present.size() > 0) {
+  while (state.is_restoring() && present.size() > 0) {
     cache.removeOverlappingPair(present[0].m_pProxy0, present[0].m_pProxy1, &dispatcher_);
   }
   for (const int index : objects) {
@@ -141,7 +141,7 @@ void BulletWorld::exchange_pairs(math::StateArchive& state, const std::vector<in
     state(proxy.m_uniqueId, proxy.stage, proxy.m_aabbMin, proxy.m_aabbMax);
   }
   state(pairs);
-  if (!state.sets()) return;
+  if (!state.is_restoring()) return;
   // The contacts between parts of shapes are found again, at the poses of the last query.
   std::vector<btTransform> X_now;
   for (const int index : objects) {
@@ -176,10 +176,10 @@ void BulletWorld::exchange_manifolds(math::StateArchive& state) {
   std::size_t count = left.size();
   state(count);
   for (std::size_t m = 0; m < count; ++m) {
-    std::array<int, 4> key = state.sets() ? std::array<int, 4>{} : key_of(*left[m]);
+    std::array<int, 4> key = state.is_restoring() ? std::array<int, 4>{} : key_of(*left[m]);
     state(key);
-    btPersistentManifold* manifold = state.sets() ? nullptr : left[m];
-    if (state.sets()) {
+    btPersistentManifold* manifold = state.is_restoring() ? nullptr : left[m];
+    if (state.is_restoring()) {
       const auto is = [&](const btPersistentManifold* other) { return key_of(*other) == key; };
       const auto of_bodies = [&](const btPersistentManifold* other) {
         return key_of(*other)[0] == key[0] && key_of(*other)[1] == key[1];
@@ -197,7 +197,7 @@ void BulletWorld::exchange_manifolds(math::StateArchive& state) {
     manifold->setNumContacts(points);
     for (int k = 0; k < points; ++k) state(manifold->getContactPoint(k));
   }
-  if (!state.sets()) return;
+  if (!state.is_restoring()) return;
   ordered.insert(ordered.end(), left.begin(), left.end());
   dispatcher_.set_order(ordered);
 }
@@ -205,11 +205,11 @@ void BulletWorld::exchange_manifolds(math::StateArchive& state) {
 void BulletWorld::exchange_broadphase(math::StateArchive& state, const std::vector<int>& objects) {
   for (btDbvtProxy*& root : broadphase_.m_stageRoots) {
     std::vector<int> stage;
-    for (const btDbvtProxy* proxy = root; !state.sets() && proxy != nullptr; proxy = proxy->links[1]) {
+    for (const btDbvtProxy* proxy = root; !state.is_restoring() && proxy != nullptr; proxy = proxy->links[1]) {
       stage.push_back(index_of(*proxy));
     }
     state(stage);
-    if (!state.sets()) continue;
+    if (!state.is_restoring()) continue;
     btDbvtProxy* last = root = nullptr;
     for (const int index : stage) {
       btDbvtProxy* proxy = &proxy_of(object(index));
@@ -226,7 +226,7 @@ void BulletWorld::exchange_broadphase(math::StateArchive& state, const std::vect
 }
 
 void BulletWorld::exchange_tree(math::StateArchive& state, btDbvt& tree, const std::vector<int>& objects) {
-  const bool sets = state.sets();
+  const bool sets = state.is_restoring();
   int leaves = tree.m_root == nullptr ? 0 : tree.m_leaves;
   state(leaves);
   if (sets) tree.clear();

@@ -26,7 +26,7 @@ StrainVector Bushing::damping(const PerDof& c, const PerDof& k) const {
 
 template <typename S>
 SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S>& out) const {
-  const math::Three<S> phi{q[2], q[3], q[4]}, phi_dot{q_dot[2], q_dot[3], q_dot[4]}, zero = math::none<S>();
+  const math::Three<S> phi{q[2], q[3], q[4]}, phi_dot{q_dot[2], q_dot[3], q_dot[4]}, zero = math::zero<S>();
   const S t = dot(phi, phi), one = S{} + 1.0;
   const math::So3CoefficientsOf<S> k = math::so3_coefficients(t);
   out.R_HE = math::exp_so3(phi, k);

@@ -38,7 +38,7 @@ class SegmentRotation {
   /// The strain over the segment of length h is (a + b u) / h for u = −½ … ½. `angle`: a bound of |a| + |b| / 2 [rad].
   SPRING_WORKBENCH_INLINE SegmentRotation(const math::Three<S>& a, const math::Three<S>& b, double angle) {
     pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : max_pairs;
-    c_[0] = {math::none<S>(), S{} + 1.0};
+    c_[0] = {math::zero<S>(), S{} + 1.0};
     c_[1] = {0.5 * a, S{}};
     for (int n = 1; n + 1 < 2 * pairs_; ++n) {
       const QuaternionOf<S> by_a = times(c_[n], a), by_b = times(c_[n - 1], b);

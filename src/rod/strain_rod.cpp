@@ -42,7 +42,7 @@ StrainVector StrainRod::stiffness(const PerDof& k) const {
 
 template <typename S>
 SPRING_WORKBENCH_INLINE StrainRod::LinearStrain<S> StrainRod::curvature(const S* q) const {
-  if (bend_terms_ == 1) return {{q[0], q[1], q[2]}, math::none<S>()};
+  if (bend_terms_ == 1) return {{q[0], q[1], q[2]}, math::zero<S>()};
   const double per_length = 2.0 / length();
   return {{q[0], q[2], q[4]}, {per_length * q[1], per_length * q[3], S{}}};
 }
@@ -69,7 +69,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   const S stretched = 1.0 + q[stretch().begin], stretching = q_dot[stretch().begin];
   const double h = length() / count;
   const math::GaussLegendre<nodes>& gauss = rule<nodes>();
-  const math::Three<S> zero = math::none<S>();
+  const math::Three<S> zero = math::zero<S>();
 
   // Integrals from the handle to the start of the segment, finally to the tip. Velocities in H axes.
   QuaternionOf<S> turned{zero, S{} + 1.0};
@@ -184,8 +184,8 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   const double angle = turned_angle(k) * s / length();
   const int count = segments(angle);
   const double h = s / count;
-  QuaternionOf<double> turned{math::none<double>(), 1.0};
-  math::Three<double> p = math::none<double>();
+  QuaternionOf<double> turned{math::zero<double>(), 1.0};
+  math::Three<double> p = math::zero<double>();
   for (int segment = 0; segment < count; ++segment) {
     const SegmentRotation<double> rotation(h * (k.value + ((segment + 0.5) * h - 0.5 * length()) * k.slope),
                                            (h * h) * k.slope, angle / count);

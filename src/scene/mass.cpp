@@ -72,8 +72,8 @@ std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Sh
   const double largest_gyration = std::sqrt(moments[2] / mass.mass);
   const double size = farthest_point(shapes, mass.centre);
   if (!shapes.empty() && largest_gyration > (1.0 + inertia_rounding) * size) {
-    return "is a placeholder (radius of gyration " + number(largest_gyration) + " m, the shape ends at " +
-           number(size) + " m)";
+    return "is implausible (its radius of gyration is " + number(largest_gyration) + " m, but the shape reaches only " +
+           number(size) + " m from the centre of mass)";
   }
   return "";
 }

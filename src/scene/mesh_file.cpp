@@ -80,7 +80,8 @@ void check_indices(const geometry::TriangleMesh& mesh, const std::string& where)
   for (const Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       if (t[k] < 0 || t[k] >= count) {
-        validation::refuse(where, "vertex index", std::to_string(t[k]), "the index of a vertex");
+        validation::refuse(where, "vertex index", std::to_string(t[k]),
+                           "an integer between 0 and " + std::to_string(count - 1));
       }
       if (!mesh.corner(t, k).allFinite()) {
         validation::refuse(where, "vertex", "finite coordinates");
@@ -107,7 +108,7 @@ void check_folder(const fs::path& path, const std::vector<std::string>& roots, c
   if (roots.empty() || is_in_a_root(path, roots) || is_in_a_package(path)) return;
   validation::refuse(where, key, name,
                      "a file in a ROS package or in one of the folders " + validation::join(roots) +
-                         " (more: the parameter scene_roots, or the argument roots)");
+                         " (to add folders, use the parameter scene_roots or the argument roots)");
 }
 
 }  // namespace

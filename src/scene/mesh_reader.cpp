@@ -43,7 +43,8 @@ void append(const aiMesh& part, const std::string& where, geometry::TriangleMesh
     Eigen::Vector3i triangle;
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= part.mNumVertices) {
-        validation::refuse(where, "vertex index", std::to_string(face.mIndices[k]), "the index of a vertex");
+        validation::refuse(where, "vertex index", std::to_string(face.mIndices[k]),
+                           "an integer between 0 and " + std::to_string(part.mNumVertices - 1));
       }
       triangle[k] = static_cast<int>(first + face.mIndices[k]);
     }
@@ -110,7 +111,7 @@ geometry::TriangleMesh read_triangles(const std::string& path, const std::string
   time_left -= used;
   if (!data || time_left <= 0.0)
     validation::refuse(where, "mesh", path,
-                       "a readable mesh (within 30 s and 2 GiB, all meshes of a scene within 60 s)");
+                       "a mesh that can be read within 30 s (all meshes of a scene: 60 s) and 2 GiB");
   if (data->front() == bad) throw validation::InputError(data->substr(1));
   geometry::TriangleMesh mesh;
   unpack(unpack(data->data() + 1, mesh.vertices), mesh.triangles);

@@ -150,7 +150,7 @@ Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>&
 
 Body read_object(const std::string& name, const std::string& urdf, const std::optional<RigidTransform>& X_WL,
                  const Scene& scene, const std::vector<std::string>& roots, const std::string& where) {
-  if (name.empty() || find_body(scene, name)) validation::refuse(where, "name", name, "a new name");
+  if (name.empty() || find_body(scene, name)) validation::refuse(where, "name", name, "a name that is not in use");
   check_name(name, where, "name");
   const std::string folder = fs::path(scene.path).parent_path().string();
   const UrdfFile file = read_urdf_file(resolve_file(urdf, folder, roots, where, "urdf"));
@@ -181,7 +181,7 @@ void set_mass(Body& body, double mass, const std::string& where) {
     const RigidMass solid = solid_mass(body.collision.empty() ? body.visual : body.collision, 1.0, where, warnings);
     if (!(solid.mass > 0.0)) {
       validation::refuse(where, "mass", validation::number_text(mass),
-                         "0 (" + body.name + " has no volume from which to compute an inertia)");
+                         "0, because " + body.name + " has no volume from which to compute an inertia");
     }
     m.inertia_O = mass / solid.mass * solid.inertia;
   } else {

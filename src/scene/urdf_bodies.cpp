@@ -137,8 +137,9 @@ class BodyBuilder {
     const urdf::Inertial& i = *link.inertial;
     if (!(i.mass > 0.0)) {
       const RigidMass solid = solid_mass(shapes, density, where, warnings_);
-      warnings_.push_back(where + ": mass " + validation::number_text(i.mass) + " is not positive: " +
-                          (solid.mass > 0.0 ? "mass and inertia of its shapes are used" : "the link has none"));
+      warnings_.push_back(
+          where + ": mass " + validation::number_text(i.mass) + " is not positive: " +
+          (solid.mass > 0.0 ? "mass and inertia of its shapes are used" : "the link is treated as massless"));
       return solid;
     }
     Matrix3d inertia;

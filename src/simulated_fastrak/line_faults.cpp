@@ -20,7 +20,8 @@ Fault parse_fault(const std::string& text) {
   static const std::vector<std::string> kinds{"garbage", "cut", "silence", "error", "wrong_mode", "unplug"};
   const auto kind = std::find(kinds.begin(), kinds.end(), text.substr(0, end));
   if (kind == kinds.end())
-    validation::refuse(kWhere, "--fault", text, "one of " + validation::join(kinds) + ", with ,rate= ,from= ,until=");
+    validation::refuse(kWhere, "--fault", text,
+                       "one of " + validation::join(kinds) + ", optionally followed by ,rate=R ,from=S ,until=S");
   fault.kind = static_cast<Fault::Kind>(kind - kinds.begin());
   while (end < text.size()) {
     const std::size_t begin = end + 1;

@@ -17,8 +17,8 @@ Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, object
       fork_(settings.fork),
       objects_(objects),
       tool_(tool),
-      stylus_(settings.hand_time_scale * settings.dropout_after, settings.hand_time_scale * settings.wrench_timeout,
-              scene.X_WH_start.front()),
+      stylus_(settings.hand_time_scale * settings.dropout_after,
+              settings.hand_time_scale * settings.external_wrench_timeout, scene.X_WH_start.front()),
       ray_length_(longest_ray) {}
 
 void Hand::reset() {
@@ -36,7 +36,7 @@ void Hand::continue_from(Hand& before, const std::string& new_mass, double now) 
   before.grasp_.object = objects_.find(held).value_or(0);
   math::StateArchive taken;
   before.exchange(taken, now);
-  math::StateArchive given(taken.taken());
+  math::StateArchive given(taken.words());
   exchange(given, now);
   if (!old) return;
   const bool pulls = had_mass && !objects_.massless(grasp_.object);
@@ -230,9 +230,10 @@ void Hand::calibrate(std::string& message, double now) {
   if (!calibrate_hold()) return;
   hold_->regrasp(before.X_WO, pull);
   keep_twist(before.V_WO_W);
-  message = objects_.massless(grasp_.object) ? before.name + " has no mass: nothing to calibrate"
-            : to_world()                     ? "restored the scene's stiffness"
-                                             : "calibrated for " + before.name;
+  const std::string done = objects_.massless(grasp_.object) ? before.name + " has no mass: nothing to calibrate"
+                           : to_world()                     ? "restored the scene's stiffness for " + before.name
+                                                            : "calibrated for " + before.name;
+  if (message.find(done) == std::string::npos) message += (message.empty() ? "" : "; ") + done;
 }
 
 tools::ToolState Hand::state(double now) const {
@@ -258,7 +259,7 @@ void Hand::exchange(math::StateArchive& state, double now) {
   state(fork_.dofs, fork_.stiffness, fork_.damping_ratio, fork_.damping_coefficient, fork_.damping_law);
   state(tool_, stylus_, ray_length_, inserted_, pressed_, grasped_by_name_, pushes_, grasp_, slip_, holds, touches,
         touched);
-  if (state.sets()) {
+  if (state.is_restoring()) {
     if (grasp_.object >= std::max<std::size_t>(objects_.states().size(), 1))
       throw std::out_of_range("the tool holds an unknown object");
     hold_ = holds ? maker().make(grasp_, grasped_body(), now, hold_.get()) : nullptr;

@@ -204,7 +204,7 @@ std::vector<Field> grasp_fields(S& s) {
        },
        [](const auto&) {}},  // checked against the scene later
       {{"grasp.tip_in_object", "double list", "m, –", "the tip frame in the object's centre-of-mass frame"},
-       [] { return "x y z qx qy qz qw, the quaternion nonzero"; },
+       [] { return "x y z qx qy qz qw, with a nonzero quaternion"; },
        [] { return "the pose of the tip at the grasp"; },
        [&](const auto& node, const auto& where) {
          tip = config::read_pose(node, where, "grasp.tip_in_object");
@@ -218,7 +218,8 @@ std::vector<Field> grasp_fields(S& s) {
       number("dropout_after", "s", validation::positive_or_infinite(),
              "if the gap between two samples is longer, the handle is at rest until the next sample", s.dropout_after),
       number("external_wrench_timeout", "s", between(1e-3, 10.0),
-             "how long an external wrench acts if no newer one arrives; it is zero after that", s.wrench_timeout),
+             "how long an external wrench acts if no newer one arrives; it is zero after that",
+             s.external_wrench_timeout),
       integer("impact_bisections", 0, 30,
               "number of bisections that find the end of a step in which contact begins (section 5 of the paper); 0: "
               "the time of impact is computed instead",

@@ -15,6 +15,7 @@
 #include "spring_workbench/scene/editing.h"
 #include "spring_workbench/tools/calibration.h"
 #include "spring_workbench/tools/sharing.h"
+#include "spring_workbench/validation/element.h"
 #include "spring_workbench/validation/names.h"
 #include "spring_workbench/validation/number_rule.h"
 
@@ -133,11 +134,7 @@ struct Simulation::Impl {
     if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
     for (int i = 0; i < settings.styluses; ++i) hands.emplace_back(scene, settings, objects, tool);
   }
-  Hand& hand(std::size_t index) {
-    if (index < hands.size()) return hands[index];
-    validation::refuse("", "hand", std::to_string(index),
-                       "an integer between 0 and " + std::to_string(hands.size() - 1));
-  }
+  Hand& hand(std::size_t index) { return validation::element(hands, index, "hand"); }
   double in_world(double t) const { return settings.hand_time_scale * t; }
   /// Converts world time to the hand's; exact for the last requested time, so that requesting it again changes nothing.
   double of_hand(double t) const {
@@ -351,7 +348,7 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   if (limited) exchange(start);
   carry(h, slipping, report);
   for (Slipping more; limited && !(more = beyond_limits(slipping)).empty();) {
-    set(start.taken());
+    set(start.words());
     report = so_far;
     if (settings.limit.action == tools::LimitAction::slip) {
       slipping.insert(more.begin(), more.end());
@@ -391,7 +388,7 @@ void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std
   std::vector<ObjectEdit> same = edits;
   state(same, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
         settings.dynamics.error_bound);
-  if (!(same == edits)) throw std::out_of_range("the objects of its scene were edited otherwise");
+  if (!(same == edits)) throw std::out_of_range("it was saved after other edits of the scene");
   objects::Objects::Archive of_objects(objects);
   some != nullptr ? of_objects.exchange(state, *some) : of_objects.exchange(state);
   for (Hand& hand : hands) hand.exchange(state, now);
@@ -400,7 +397,7 @@ void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std
 void Simulation::Impl::set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some) {
   math::StateArchive state(words);
   exchange(state, some);
-  if (!state.at_end()) throw std::out_of_range("it is longer than expected");
+  if (!state.at_end()) throw std::out_of_range("it has more numbers than this simulation");
 }
 
 void Simulation::Impl::exchange_input(math::StateArchive& state) {
@@ -414,7 +411,7 @@ void Simulation::Impl::restore(const math::StateArchive::Words& words) {
   try {
     set(words);
   } catch (const std::exception& error) {
-    set(present.taken());
+    set(present.words());
     throw validation::InputError(std::string("state: not a state of this simulation: ") + error.what());
   }
 }
@@ -541,7 +538,8 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
     std::string message = fork.empty() && dynamics.empty() ? "nothing changed" : "set";
     for (Hand* of : impl_->chosen(hand)) {
       const rod::ForkSettings next = fork.applied_to(of->fork());
-      if (!fork.empty() && message == "set") message += ": " + rod::in_words(next);
+      const std::string words = fork.empty() ? "" : rod::in_words(next);
+      if (message.find(words) == std::string::npos) message += (message == "set" ? ": " : "; ") + words;
       if (next.changeable() != of->fork().changeable()) of->change_fork(fork, message);
     }
     if (dynamics.empty()) return message;
@@ -634,7 +632,7 @@ SimulationState Simulation::save() const {
   SimulationState state;
   state.origin_ = impl_->origin;
   state.styluses_ = impl_->settings.styluses;
-  state.words_ = std::move(archive).taken();
+  state.words_ = std::move(archive).words();
   impl_->words_of_state = state.words_.size();
   return state;
 }
@@ -659,23 +657,23 @@ void Simulation::rewind_to(const SimulationState& state, std::optional<Simulatio
   } else {
     restore_at_rest(state, *this);
   }
-  math::StateArchive kept(input.taken());
+  math::StateArchive kept(input.words());
   impl_->exchange_input(kept);
   impl_->objects.begin(impl_->now);
 }
 
 void Simulation::copy_state_from(const Simulation& other) {
   if (other.impl_->origin != impl_->origin || !(other.impl_->edits == impl_->edits)) return restore(other.save());
-  bodies::Changes &own = impl_->objects.changes(), &others = other.impl_->objects.changes();
+  bodies::ChangeLog &own = impl_->objects.changes(), &others = other.impl_->objects.changes();
   const std::vector<std::size_t> differing = own.differing(others);
   math::StateArchive archive;
   other.impl_->exchange(archive, &differing);
-  impl_->set(archive.taken(), &differing);
+  impl_->set(archive.words(), &differing);
   own.mark_equal_to(others);
 }
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
-const bodies::Changes& Simulation::object_changes() const { return impl_->objects.changes(); }
+const bodies::ChangeLog& Simulation::object_changes() const { return impl_->objects.changes(); }
 const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().reported(); }
 tools::ToolState Simulation::tool(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
 

@@ -11,7 +11,7 @@ namespace {
 /// Returns the same forcing with the frames of the couplings at rest in the frame of the handle.
 dynamics::HandleForcing with_frames_at_rest(dynamics::HandleForcing handle) {
   for (std::size_t i = 0; i < handle.relative_motions.count; ++i) {
-    handle.relative_motions.in_frame(i).v_AB = handle.relative_motions.in_frame(i).w_AB = math::none<double>();
+    handle.relative_motions.in_frame(i).v_AB = handle.relative_motions.in_frame(i).w_AB = math::zero<double>();
   }
   return handle;
 }

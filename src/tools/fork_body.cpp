@@ -141,7 +141,7 @@ void ForkBody::restore(const bodies::TrialStart& start) {
 
 void ForkBody::exchange(math::StateArchive& state) {
   state(held_, coupling_, control_, X_SH_, hand_, state_, estimates_, sleep_, load_W_);
-  if (!state.sets()) return;
+  if (!state.is_restoring()) return;
   known_.reset();
   added_ = 0.0;
   trial_ = {};

@@ -49,7 +49,7 @@ template <typename S>
 void SpringCoupling::pull_of(const dynamics::RelativeMotion<S>& A_O, dynamics::Pull<S>& pull) const {
   const Span<S> s = span(A_O);
   pull.force = -(k_ * s.extension + c_ * s.rate) * s.n;
-  pull.moment = math::none<S>();
+  pull.moment = math::zero<S>();
 }
 
 void SpringCoupling::pull(const double&, const dynamics::RelativeMotion<double>& A_O,
@@ -107,7 +107,7 @@ void SpringBody::follow(double t, const ToolHold&, const motion::MotionState& ob
   ForkBody::set_hand(rest_, t);
   const RigidTransform X_HO = rest_.at(t).X.inverse() * object.X;
   const rod::TipFit<double> fit(held().shape(), math::three_by_three(X_HO.linear()), math::three(X_HO.translation()),
-                                math::none<double>(), math::none<double>(), strain().q.data());
+                                math::zero<double>(), math::zero<double>(), strain().q.data());
   set_strain({Eigen::Map<const Vector6d>(fit.q), strain().q_dot});
   take_twist(object.velocity);
 }

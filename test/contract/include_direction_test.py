@@ -35,10 +35,10 @@ EXECUTABLES = {  # folders of executables, which have no module of their own: wh
     "apps": {"live", "motion_files", "simulated_fastrak", "assembly"},
 }
 # A pose enters each module once: hand_input is entered by these headers, from these modules. Gate, smoothing,
-# re-acquisition and playout clock are the feed's own, and what hands a pose on towards it knows none of them.
+# re-acquisition and playout clock are the input filter's own, and what hands a pose on towards it knows none of them.
 ENTRIES = {
     "hand_input": {
-        "feed.h": {"live", "assembly", "apps"},
+        "input_filter.h": {"live", "assembly", "apps"},
         "settings.h": {"manipulation", "live", "apps"},
         "local_time.h": {"ros_common"},
     }
@@ -200,9 +200,9 @@ class IncludeDirection(unittest.TestCase):
             ("src/nodes/a.cpp", "#include <ros/ros.h>", False),
             ("src/apps/bag_reader.cpp", "#include <rosbag/bag.h>", False),
             ("src/apps/main.cpp", "#include <rosbag/bag.h>", True),
-            ("src/assembly/a.cpp", '#include "spring_workbench/hand_input/feed.h"', False),
+            ("src/assembly/a.cpp", '#include "spring_workbench/hand_input/input_filter.h"', False),
             ("src/assembly/a.cpp", '#include "spring_workbench/hand_input/sample_gate.h"', True),
-            ("src/fastrak/a.cpp", '#include "spring_workbench/hand_input/feed.h"', True),
+            ("src/fastrak/a.cpp", '#include "spring_workbench/hand_input/input_filter.h"', True),
             ("src/hand_input/a.cpp", '#include "spring_workbench/hand_input/sample_gate.h"', False),
             ("src/stray/a.cpp", "#include <vector>", True),
             ("src/low/a.cpp", "namespace spring_workbench::low {", False),

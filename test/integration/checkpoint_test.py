@@ -163,10 +163,10 @@ class Checkpoint(unittest.TestCase):
         with open(os.path.join(folder, "other"), "w", encoding="ascii") as file:
             file.write("somebody's")
         for name, reason in [
-            ("fifo", "not a regular file"),
-            ("link", "a symbolic link"),
-            ("", "not a regular file"),
-            ("other", "a file of another program"),
+            ("fifo", "it is not a regular file"),
+            ("link", "it is a symbolic link"),
+            ("", "it is not a regular file"),
+            ("other", "it belongs to another program"),
             ("none/checkpoint", "No such file or directory"),
         ]:
             with self.subTest(name=name):

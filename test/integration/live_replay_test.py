@@ -437,7 +437,7 @@ def session():
         "before the journal": before,
         "with no hand": waiting,
         "changes": summary["changes"],
-        "made again": summary["changes_made_again"],
+        "made again": summary["changes_replayed"],
         "mismatched": summary["changes_mismatched"],
         "hashes": sum(not m.state for m in changes),
         "wrenches": sum(m.kind == Accepted.EXTERNAL_WRENCH for m in accepted),

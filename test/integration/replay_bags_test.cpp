@@ -121,8 +121,8 @@ TEST_F(Replay, BadBagsAreRefused) {
   auto samples = lifting_hand();
   write_bag(path("frames.bag"), samples, {"odom", "base_link"});
   expect_refused("--scene box.urdf --bag frames.bag --out run.csv",
-                 {"frames.bag: transform: invalid value 'workbench -> stylus': expected one of those in the bag "
-                  "(--parent and --child choose it): odom -> base_link"});
+                 {"frames.bag: transform: invalid value 'workbench -> stylus': expected one of odom -> base_link "
+                  "(choose with --parent and --child)"});
   samples[3].qx = samples[3].qy = samples[3].qz = samples[3].qw = 0.0;
   write_bag(path("zero.bag"), samples);
   expect_refused("--scene box.urdf --bag zero.bag --out run.csv",

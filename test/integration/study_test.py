@@ -113,7 +113,7 @@ class Study(unittest.TestCase):
             summary = json.loads(run.stdout.splitlines()[-1])
             self.assertEqual(set(summary["active"]) & {"bend", "stretch", "torsion"}, dofs)
             self.assertGreaterEqual(summary["changes"], 1)  # the reset at its begin
-            self.assertEqual((summary["changes_made_again"], summary["changes_mismatched"]), (summary["changes"], 0))
+            self.assertEqual((summary["changes_replayed"], summary["changes_mismatched"]), (summary["changes"], 0))
             with open(self.path("run.csv"), encoding="utf-8", newline="") as file:
                 last = list(csv.DictReader(file))[-1]
             self.assertAlmostEqual(float(last["x"]), 0.12, delta=0.02)

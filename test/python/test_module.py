@@ -171,7 +171,7 @@ def test_changes_are_made_completely_or_not_at_all():
     with pytest.raises(sw.InputError, match="step"):
         simulation.change(stiffness=[1000.0, 400.0, 3.0], step=-1.0)
     for wrong in [5.0, [1.0, 2.0], ["a", "b", "c"], "soft"]:
-        rule = r"^stiffness: invalid value '.*': expected three numbers \(or None\), of stretch, bend and torsion$"
+        rule = r"^stiffness: invalid value '.*': expected three numbers \(or None\), for stretch, bend and torsion$"
         with pytest.raises(sw.InputError, match=rule):
             simulation.change(stiffness=wrong)
     with pytest.raises(sw.InputError, match=r"^dofs: invalid value '\[True, False\]': expected three booleans"):

@@ -4,10 +4,10 @@
 #include <iostream>
 #include <numeric>
 
+#include "benchmark/baselines.h"
 #include "benchmark/contact/card_house.h"
 #include "benchmark/contact/piles.h"
 #include "benchmark/contact/processor_time.h"
-#include "benchmark/peers.h"
 #include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
@@ -91,12 +91,12 @@ void compare(bool quick) {
     for (const double ratio : {1.0, 1e3, 1e6}) trials.push_back(standing_stack(ratio, 1.0));
     trials.push_back(card_house(false, 1.0));
   }
-  const Peers peers = all_peers();
+  const Baselines baselines = all_baselines();
   const std::vector<double> steps =
       quick ? std::vector<double>{0.005} : std::vector<double>{0.02, 0.005, 0.001, 0.0002};
   for (const ContactTrial& trial : trials) {
     print(trial, "ours", trial.settings.dynamics.step, run_ours(trial));
-    for (const BoxEngine& engine : peers.boxes) {
+    for (const BoxEngine& engine : baselines.boxes) {
       for (const double step : steps) print(trial, engine.name, step, run_engine(engine, trial, step));
     }
   }

@@ -4,8 +4,8 @@
 
 namespace spring_workbench::assembly {
 
-/// Score of an assembly so far: the measures in which tools are compared (paper, section 6). Counting pauses while
-/// every object is in place.
+/// Score of an assembly so far: the measures in which tools are compared (paper, section 6). The score stands
+/// still while every object is in place.
 struct TaskScore {
   int targets = 0;           ///< objects that have a target
   int placed = 0;            ///< number of these that are in place now

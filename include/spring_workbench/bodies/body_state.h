@@ -32,7 +32,7 @@ BodyState at_start(const scene::Body& body);
 
 /// Record of the objects that have changed since a given revision. It lets a copy of the states be brought up to date
 /// at a cost proportional to the number of changes. It is an optimisation only, not part of the state.
-class Changes {
+class ChangeLog {
  public:
   /// A point in the history of the objects. The default precedes the whole history.
   struct Revision {
@@ -40,9 +40,9 @@ class Changes {
     std::uint64_t count = 0;         ///< number of changes up to this point
   };
 
-  Changes() { reset(0); }  ///< a record of no objects
-  Changes(const Changes&) = delete;
-  Changes& operator=(const Changes&) = delete;
+  ChangeLog() { reset(0); }  ///< a record of no objects
+  ChangeLog(const ChangeLog&) = delete;
+  ChangeLog& operator=(const ChangeLog&) = delete;
 
   /// Resets the record to `objects` objects, all of which count as changed.
   void reset(std::size_t objects);
@@ -54,9 +54,9 @@ class Changes {
 
   /// Returns the indices of the objects that may differ from their counterparts in `other`, in ascending order. These
   /// objects have changed, here or there, since the last mark_equal_to(other).
-  std::vector<std::size_t> differing(const Changes& other) const;
+  std::vector<std::size_t> differing(const ChangeLog& other) const;
   /// Records that all objects have been made equal to the objects of `other`.
-  void mark_equal_to(const Changes& other) {
+  void mark_equal_to(const ChangeLog& other) {
     own_ = now();
     others_ = other.now();
   }

@@ -139,7 +139,7 @@ class HeldBody {
   template <int n>
   void acceleration(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot,
                     math::Pack* q_ddot) const;
-  /// Returns energy and power at several moments, for arrays of size() packs. A DOF that returns to zero is left out.
+  /// Returns energy and power at several moments, for arrays of size() packs, without a DOF that returns to zero.
   EnergyBalance energy_balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot) const;
   rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;  ///< M(q) of the active coordinates
   bool rechart(StrainState& state) const;  ///< ShapeModel::rechart, active coordinates; not while a DOF returns

@@ -84,7 +84,7 @@ class LinearPart {
 
   void exchange(math::StateArchive& state) {
     state(modes_);
-    if (state.sets()) take_matrices();
+    if (state.is_restoring()) take_matrices();
   }
 
  private:

@@ -17,7 +17,8 @@ struct ReacquisitionCounts {
 };
 
 /// Computes the pose of the hand that the simulation follows. This is the tracked pose or, if the hand was lost and
-/// found elsewhere, a pose that starts at rest where the hand was last and catches up. Feed has one for each hand.
+/// found elsewhere, a pose that starts at rest where the hand was last and catches up. InputFilter has one for each
+/// hand.
 ///
 /// With each sample the followed pose moves by the step of the tracked hand, and towards the tracked pose at no more
 /// than `reacquisition_speed` and `reacquisition_turn_rate`, at the end with a time constant of 0.1 s. In the first

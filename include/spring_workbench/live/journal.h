@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/live/undo.h"
 
 namespace spring_workbench::live {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/live/pace.h"
 #include "spring_workbench/simulation/simulation.h"
 
@@ -33,17 +33,18 @@ class LookAhead {
   /// `scene`, `settings`: of the committed simulation.
   LookAhead(const scene::Scene& scene, const simulation::SimulationSettings& settings) : copy_(scene, settings) {}
 
-  /// Restores the copy from `committed` and advances it to time `t` [s]. `feed`: the feed of `committed`.
-  void show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t);
+  /// Restores the copy from `committed` and advances it to time `t` [s]. `filter`: the input filter of `committed`.
+  void show(const simulation::Simulation& committed, const hand_input::InputFilter& filter, double t);
   /// Advances the copy to `horizon` [s] beyond the newest sample; never back, and no further than `committed` if `pace`
   /// expects that to take too long. Does nothing if the copy is there already. Returns the time of the copy beyond the
   /// newest sample [s].
-  double show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
+  double show_newest(const simulation::Simulation& committed, const hand_input::InputFilter& filter, double horizon,
                      const Pace& pace);
   const simulation::Simulation& shown() const { return copy_; }
   /// Measures a step of the largest length from the state of `committed`. The copy takes two, since the first one after
   /// a change also prepares the next ones, and is then as it was.
-  StepTime time_of_step(const simulation::Simulation& committed, const hand_input::Feed& feed, const Pace& pace);
+  StepTime time_of_step(const simulation::Simulation& committed, const hand_input::InputFilter& filter,
+                        const Pace& pace);
   /// Whether the copy has followed the committed simulation since the last restart(). If not, it may contain other
   /// objects.
   bool has_followed() const { return has_followed_; }
@@ -53,7 +54,7 @@ class LookAhead {
   PredictionError compare(const simulation::Simulation& committed);
   /// Returns the position error that 99 % of the newest 1000 comparisons do not exceed [m].
   double position_error_99() const;
-  /// Reports that the input of `committed` or of its feed has changed.
+  /// Reports that the input of `committed` or of its input filter has changed.
   void input_changed() { up_to_date_ = false; }
   /// Forgets the displayed poses, because the committed simulation was changed.
   void restart();
@@ -77,7 +78,7 @@ class LookAhead {
     std::vector<Held> of(const simulation::Simulation& simulation);
 
    private:
-    bodies::Changes::Revision at_;
+    bodies::ChangeLog::Revision at_;
     std::set<std::size_t> held_;
   };
 

@@ -58,7 +58,7 @@ class SharedStates {
 
   std::shared_ptr<const Parts> parts_ = std::make_shared<Parts>();  ///< shared by copies
   std::size_t size_ = 0;
-  bodies::Changes::Revision at_;  ///< moment of the simulation up to which it follows
+  bodies::ChangeLog::Revision at_;  ///< moment of the simulation up to which it follows
 };
 
 }  // namespace spring_workbench::live

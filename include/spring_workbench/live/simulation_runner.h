@@ -78,7 +78,7 @@ struct HandStatistics {
   motion::StreamFigures stream;  ///< figures of the samples used
   hand_input::GateCounts gate;
   hand_input::ReacquisitionCounts reacquisition;
-  std::size_t tracker_moves = 0;  ///< see Feed
+  std::size_t tracker_moves = 0;  ///< see InputFilter
   double newest_arrival = 0.0;    ///< arrival of the newest sample used, in local time [s]
 };
 
@@ -115,7 +115,7 @@ struct NextScene {
   Places places;  ///< poses that the objects keep in the first epoch
 };
 
-/// Runs a live simulation. It owns the committed simulation and its feed, the lock that physics, services and
+/// Runs a live simulation. It owns the committed simulation and its input filter, the lock that physics, services and
 /// publishers share, the displayed copy, the journal, and the epochs of the hands' clocks (times count from the epoch
 /// of the first stylus; other styluses join it). Time is skipped if no sample arrives because the process was stopped,
 /// or if the hands' clock jumps by more than 5 s: everything stays in place, and the hands are re-acquired. If the
@@ -165,7 +165,7 @@ class SimulationRunner {
   /// Measures a step of the largest length from the current state, which does not change; see LookAhead.
   StepTime time_of_step() {
     const Lock lock(mutex_);
-    return ahead_.time_of_step(simulation_, feed_, pace_);
+    return ahead_.time_of_step(simulation_, filter_, pace_);
   }
   /// Starts the journal, with the current state as its first entry, or stops it.
   void keep_journal(bool keep);
@@ -191,7 +191,7 @@ class SimulationRunner {
   void apply(HandInput& input, const StylusWrench& wrench) { push(input, wrench, times_.time_of_stamp(wrench.stamp)); }
   void push(HandInput& input, StylusWrench wrench, double t);
   Progress progress_at(double t, bool began) const {
-    return {feed_.has_sample(), began, times_.stamp_of(t), revision_, feed_.is_interrupted()};
+    return {filter_.has_sample(), began, times_.stamp_of(t), revision_, filter_.is_interrupted()};
   }
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double time_of(const HandInput& input, double t);
@@ -210,7 +210,7 @@ class SimulationRunner {
   std::mutex changing_;  ///< see NextScene; never locked while mutex_ is held
   mutable FairMutex mutex_;
   simulation::Simulation simulation_;
-  hand_input::Feed feed_;
+  hand_input::InputFilter filter_;
   LookAhead ahead_;
   std::shared_ptr<const scene::Scene> scene_;
   mutable SharedStates objects_, shown_objects_;  ///< states in the last views

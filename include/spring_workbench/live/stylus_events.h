@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 
 namespace spring_workbench::live {
 

@@ -62,7 +62,7 @@ struct Three {
 };
 /// The zero vector.
 template <typename S>
-SPRING_WORKBENCH_INLINE Three<S> none() {
+SPRING_WORKBENCH_INLINE Three<S> zero() {
   return {S{}, S{}, S{}};
 }
 /// Converts a vector from Eigen.

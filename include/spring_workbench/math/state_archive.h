@@ -25,15 +25,17 @@ class StateArchive {
   using Words = std::vector<std::uint64_t>;  ///< one word per number, with the bits of a double, integer or enumerator
 
   /// Makes an archive that saves the numbers of a state, about as many as `expected`.
-  explicit StateArchive(std::size_t expected = 0) { taken_.reserve(expected); }
+  explicit StateArchive(std::size_t expected = 0) { words_.reserve(expected); }
   /// Makes an archive that restores the numbers of a state from `words`, which must outlive the archive.
-  explicit StateArchive(const Words& words) : given_(&words) {}
+  explicit StateArchive(const Words& words) : source_(&words) {}
 
-  bool sets() const { return given_ != nullptr; }  ///< whether the archive restores a state; otherwise it saves one
-  const Words& taken() const& { return taken_; }   ///< the numbers that were saved
-  Words taken() && { return std::move(taken_); }   ///< the numbers that were saved, moved out
+  bool is_restoring() const {
+    return source_ != nullptr;
+  }                                               ///< whether the archive restores a state; otherwise it saves one
+  const Words& words() const& { return words_; }  ///< the numbers that were saved
+  Words words() && { return std::move(words_); }  ///< the numbers that were saved, moved out
   /// Whether no word is left to restore from.
-  bool at_end() const { return given_ == nullptr || next_ == given_->size(); }
+  bool at_end() const { return source_ == nullptr || next_ == source_->size(); }
 
   /// Saves or restores the next values of the state. Throws std::out_of_range if there are too few words.
   template <typename... Values>
@@ -45,28 +47,28 @@ class StateArchive {
   /// Returns the size. Throws std::out_of_range if fewer words are left.
   std::size_t size(std::size_t present) {
     exchange(present);
-    if (sets() && present > given_->size() - next_) throw std::out_of_range("state: ends too early");
+    if (is_restoring() && present > source_->size() - next_) throw std::out_of_range("state: ends too early");
     return present;
   }
 
  private:
   void exchange_word(std::uint64_t& word) {
-    if (!sets()) {
-      taken_.push_back(word);
+    if (!is_restoring()) {
+      words_.push_back(word);
     } else {
-      word = given_->at(next_++);
+      word = source_->at(next_++);
     }
   }
   void exchange_numbers(double* numbers, Eigen::Index count) {
     static_assert(sizeof(double) == sizeof(std::uint64_t));
     const auto size = static_cast<std::size_t>(count);
     if (size == 0) return;
-    if (!sets()) {
-      taken_.resize(taken_.size() + size);
-      std::memcpy(&taken_[taken_.size() - size], numbers, size * sizeof(double));
+    if (!is_restoring()) {
+      words_.resize(words_.size() + size);
+      std::memcpy(&words_[words_.size() - size], numbers, size * sizeof(double));
     } else {
-      if (size > given_->size() - next_) throw std::out_of_range("state: ends too early");
-      std::memcpy(numbers, &(*given_)[next_], size * sizeof(double));
+      if (size > source_->size() - next_) throw std::out_of_range("state: ends too early");
+      std::memcpy(numbers, &(*source_)[next_], size * sizeof(double));
       next_ += size;
     }
   }
@@ -87,7 +89,7 @@ class StateArchive {
       if constexpr (T::SizeAtCompileTime == Eigen::Dynamic) {
         exchange(rows);
         exchange(columns);
-        if (sets() && !fits<T>(rows, columns)) throw std::out_of_range("state: size of a matrix");
+        if (is_restoring() && !fits<T>(rows, columns)) throw std::out_of_range("state: size of a matrix");
         value.resize(rows, columns);
       }
       exchange_numbers(value.data(), rows * columns);
@@ -144,19 +146,19 @@ class StateArchive {
   void exchange(std::set<T>& set) {
     std::vector<T> list(set.begin(), set.end());
     exchange(list);
-    if (sets()) set = std::set<T>(list.begin(), list.end());
+    if (is_restoring()) set = std::set<T>(list.begin(), list.end());
   }
   template <typename Key, typename T>
   void exchange(std::map<Key, T>& map) {
     std::vector<Key> keys;
     for (const auto& entry : map) keys.push_back(entry.first);
     exchange(keys);
-    if (sets()) map.clear();
+    if (is_restoring()) map.clear();
     for (const Key& key : keys) exchange(map[key]);
   }
 
-  Words taken_;
-  const Words* given_ = nullptr;
+  Words words_;
+  const Words* source_ = nullptr;
   std::size_t next_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace spring_workbench::motion {
 struct StylusSample : PoseSample {
   bool button = false;           ///< whether the grasp button is down
   std::size_t hand = 0;          ///< number of the stylus, from 0
-  double quaternion_norm = 1.0;  ///< length of the quaternion from which `X` was made, for hand_input::Feed
+  double quaternion_norm = 1.0;  ///< length of the quaternion from which `X` was made, for hand_input::InputFilter
 };
 
 /// A button edge of a stylus: a button is pressed or released.

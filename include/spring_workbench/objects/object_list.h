@@ -23,7 +23,7 @@ class ObjectList {
     return states_[object];
   }
   /// Record of changes of the objects' states and of the other data on each object.
-  bodies::Changes& changes() { return changes_; }
+  bodies::ChangeLog& changes() { return changes_; }
   std::size_t scene_index(std::size_t object) const { return in_scene_[object]; }
   const scene::Body& body(std::size_t object) const { return scene_.bodies[in_scene_[object]]; }
   bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
@@ -43,8 +43,8 @@ class ObjectList {
 
   const scene::Scene& scene_;
   std::vector<bodies::BodyState> states_;
-  bodies::Changes changes_;
-  bodies::Changes::Revision reset_revision_;
+  bodies::ChangeLog changes_;
+  bodies::ChangeLog::Revision reset_revision_;
   std::vector<std::size_t> object_of_;    ///< object by index in the scene; valid for movable bodies
   std::vector<std::size_t> highlighted_;  ///< the objects that are highlighted
 

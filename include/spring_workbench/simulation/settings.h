@@ -34,10 +34,10 @@ struct SimulationSettings {
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `error_bound`, `inertia`
   rod::ForkSettings fork;                     ///< keys `shape`, `fork.…`
   tools::LimitSettings limit;                 ///< keys `limit.…`
-  tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
-  double dropout_after = 0.5;   ///< key `dropout_after` [s], > 0: longest gap between samples that is interpolated
-  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10: time after which a wrench ends
-  int impact_bisections = 8;    ///< key `impact_bisections`, 0 … 30 (paper, section 5); 0: time of impact instead
+  tools::GraspSettings grasp;  ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
+  double dropout_after = 0.5;  ///< key `dropout_after` [s], > 0: longest gap between samples that is interpolated
+  double external_wrench_timeout = 0.1;  ///< key of this name [s], 1e-3 … 10: time after which a wrench ends
+  int impact_bisections = 8;  ///< key `impact_bisections`, 0 … 30 (paper, section 5); 0: compute the time of impact
 };
 
 /// Throws InputError, with `where`, key, value and rule, if a value is not allowed by its key or by the damping law.

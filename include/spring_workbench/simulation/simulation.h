@@ -52,12 +52,11 @@ SimulationState parse_state(const std::string& text);
 
 /// Report on one call of Simulation::advance_to(), or on several calls whose reports were added by add().
 ///
-/// `steps` counts the steps that were taken. With a tolerance, or an integrator that is stable at any stiffness, an
-/// attempt at a step that does not solve its equation or errs too much (without a tolerance: in energy) is discarded
-/// and repeated as shorter ones (`substeps`). Otherwise, or if none succeeds, an L-stable rule takes the step
-/// (`steps_fallback`). If that fails, too, the fork is rigid for the step or, in contact, the object stays
-/// (`steps_rejected`; doc/model.md, "Steps that are not solved"). If these three, `stops`, `steps_blocked`,
-/// `steps_unsolved` and `time_lost` are all 0, nothing unusual happened. In contact, a step may take many integrations.
+/// A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
+/// repeated as shorter ones (`substeps`). If that does not help, or the integrator is not stable at any stiffness, an
+/// L-stable rule takes it (`steps_fallback`). If that fails, too, the fork is rigid for the step or, in contact, the
+/// object stays (`steps_rejected`; doc/model.md, "Steps that are not solved"). If these three counters, `stops`,
+/// `steps_blocked`, `steps_unsolved` and `time_lost` are all 0, nothing unusual happened.
 ///
 /// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
 /// of an error from above, not a rigorous bound (doc/model.md, "Error bound").
@@ -143,7 +142,7 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;  ///< the other can then only be destroyed or assigned to
 
   const scene::Scene& scene() const;  ///< the scene with all edits; its objects are at their start poses
-  /// The settings as given, except that `dynamics` is as last changed and `fork` as calibrated to the world.
+  /// The settings as given, but `dynamics` as set by change(), and `fork` as calibrated if `calibrate` is `world`.
   const SimulationSettings& settings() const;
   std::size_t hands() const;                                           ///< number of hands, `settings().styluses`
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;  ///< the fork in a hand, with all changes so far
@@ -173,33 +172,34 @@ class Simulation {
   }
   /// Adds a wrench on the held object that a machine's force sensor measured, in real units; it is multiplied by the
   /// scene's `force_scale`. It acts from its time (at once if that has passed) until the next wrench, but at most for
-  /// `settings().wrench_timeout`. It replaces pending wrenches of its own or a later time. Throws InputError, and
-  /// changes nothing, if it is invalid.
+  /// `settings().external_wrench_timeout`. It replaces pending wrenches of its own or a later time. Throws InputError,
+  /// and changes nothing, if it is invalid.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   double newest_sample_time() const;  ///< time of the newest sample of any hand, or time() if there is none [s]
   /// The next time [s] at which a hand has a sample or, once time has begun, a button changes or an external wrench
-  /// begins or ends; infinity if there is none. To advance to each gives the same result as to advance over several.
+  /// begins or ends; infinity if there is none. Advancing to each in turn or past several at once gives the same
+  /// result.
   double next_event_time() const;
 
   /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; a step also ends at each
-  /// sample, button edge and change of a wrench. Stops after the step that reaches `pause` [s]; another call to the
-  /// same `t_end` goes on with the steps of a call without a pause. If `t_end` is not later than time(), no time
-  /// passes, but pending buttons act. Throws InputError if `t_end` is not finite.
+  /// sample, button edge and change of a wrench. Stops after the step that reaches `pause` [s]; a further call
+  /// with the same `t_end` continues, and both take the same steps as one call without a pause. If `t_end` is not later
+  /// than time(), no time passes, but pending buttons act. Throws InputError if `t_end` is not finite.
   AdvanceReport advance_to(double t_end, double pause = std::numeric_limits<double>::infinity());
 
-  void reset();  ///< releases all objects, returns them to their start poses, forgets all samples; time begins anew
+  void reset();  ///< releases all objects, returns them to their start poses, forgets all samples; time starts again
   /// Releases all objects and places the named ones at rest at these poses; unsupported ones then fall. Throws
   /// InputError, and changes nothing, if no movable object has such a name or a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
   /// Releases the object of one hand or, with std::nullopt, of every hand. Returns false if nothing was held.
   bool release(std::optional<std::size_t> hand = std::nullopt);
 
-  // Changes while running: a held object's pose does not jump, nor its twist, as far as the tool can take it.
+  // Changes while running. A held object's pose does not jump; nor does its twist, unless the new tool cannot follow.
   /// Changes the tool in one hand or, with std::nullopt, in every hand. The hand keeps its object, and the new tool
   /// starts without strain. The probe cannot hold an object, so a change to it releases the object.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = std::nullopt);
   /// Changes the fork in one hand or, with std::nullopt, in every hand. `dynamics` is changed for all hands, whatever
-  /// `hand` is. Example: `change(fork, {}, 0)` changes only the fork of hand 0.
+  /// `hand` is. `change(fork, {}, 0)`: for hand 0. Throws InputError, and changes nothing, if a value is not allowed.
   ChangeReport change(const ForkChange& fork, const DynamicsChange& dynamics = {},
                       std::optional<std::size_t> hand = std::nullopt);
   /// Calibrates the tool of one hand or, with std::nullopt, of every hand to the object that it holds. With
@@ -233,7 +233,7 @@ class Simulation {
   /// @}
 
   const std::vector<bodies::BodyState>& objects() const;  ///< states of the movable objects, in the scene's order
-  const bodies::Changes& object_changes() const;          ///< record of the changes in objects()
+  const bodies::ChangeLog& object_changes() const;        ///< record of the changes in objects()
   tools::ToolState tool(std::size_t hand = 0) const;      ///< state of the tool in a hand
   double elastic_energy() const;                          ///< energy stored in all tools [J]
   /// Sum of elastic_energy() and the kinetic and potential energy of the objects (zero at z = 0) [J]. It excludes the

@@ -11,7 +11,7 @@
 #include "options.h"
 #include "spring_workbench/config/command_line.h"
 #include "spring_workbench/config/output_file.h"
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/scene/scene.h"
@@ -66,18 +66,18 @@ scene::Scene load_scene(const std::string& path, const std::string& name) {
   return scene;
 }
 
-void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
+void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_input::InputFilter& filter) {
   for (const motion::StylusSample& sample : of_hand.samples) {
-    feed.push_stylus(sample, hand, sample.quaternion_norm);
+    filter.push_stylus(sample, hand, sample.quaternion_norm);
   }
   for (const ButtonEvent& event : of_hand.next_tool) {
-    if (event.pressed) feed.push_edge(event.t, motion::ButtonEdge::next_tool, hand);
+    if (event.pressed) filter.push_edge(event.t, motion::ButtonEdge::next_tool, hand);
   }
   for (const ButtonEvent& event : of_hand.clutch) {
-    feed.push_edge(event.t, event.pressed ? motion::ButtonEdge::clutch_on : motion::ButtonEdge::clutch_off, hand);
+    filter.push_edge(event.t, event.pressed ? motion::ButtonEdge::clutch_on : motion::ButtonEdge::clutch_off, hand);
   }
   if (!with_grasp) return;
-  for (const ButtonEvent& event : of_hand.buttons) feed.push_button(event.t, event.pressed, hand);
+  for (const ButtonEvent& event : of_hand.buttons) filter.push_button(event.t, event.pressed, hand);
 }
 
 /// Replays a live run; writes rows for each committed time and after each change.
@@ -115,7 +115,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   if (replayer.simulation() == nullptr) validation::refuse(options.bag, "~changes", "at least one message");
   summary.changes = replayer.changes();
   for (const std::string& mismatch : summary.changes.mismatches) {
-    std::cerr << "warning: a repeated change led to another state: " << mismatch << "; the recorded state is used\n";
+    std::cerr << "warning: replaying a change gave a different state: " << mismatch << "; the recorded state is used\n";
   }
   summary.state_hash = replayer.simulation()->state_hash();
   fork.commit();
@@ -135,8 +135,8 @@ void check_length(const Options& options, const std::map<std::size_t, Motion>& m
   }
   using validation::number_text;
   validation::refuse(file, "time of the last sample", number_text(end),
-                     "at most " + number_text(longest) + " s after the first, which at rate = " +
-                         number_text(options.rate) + " Hz are " + number_text(most_outputs) + " output times");
+                     "at most " + number_text(longest) + " s after the first (" + number_text(most_outputs) +
+                         " output times at rate = " + number_text(options.rate) + " Hz)");
 }
 
 /// Loads the scene, runs the simulation with the recorded hands and writes both files; if it throws, it leaves no
@@ -160,25 +160,25 @@ Summary run(const Options& options) {
   ForkRows fork_rows;
 
   Summary summary;
-  hand_input::Feed feed(simulation, options.input);
+  hand_input::InputFilter filter(simulation, options.input);
   for (const auto& [hand, motion] : motions) {
-    push_motion(motion, hand, settings.grasp.object.empty(), feed);
+    push_motion(motion, hand, settings.grasp.object.empty(), filter);
     summary.samples += motion.samples.size();
   }
   const double end = simulation.newest_sample_time() + time_tolerance;
   check_length(options, motions, end);
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
-    summary.advance.add(feed.advance_to(t));
+    summary.advance.add(filter.advance_to(t));
     summary.add_state(simulation);
     objects.write(object_rows(t, simulation));
     fork.write(fork_rows.at(t, simulation, motions));
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   for (const auto& [hand, motion] : motions) {
-    summary.add(feed.gate_counts(hand));
-    summary.add(feed.reacquisition_counts(hand));
-    const std::string complaint = complaint_about_gaps(feed.gate_counts(hand), settings.dropout_after);
+    summary.add(filter.gate_counts(hand));
+    summary.add(filter.reacquisition_counts(hand));
+    const std::string complaint = complaint_about_gaps(filter.gate_counts(hand), settings.dropout_after);
     if (!complaint.empty()) std::cerr << "warning: hand " << hand + 1 << ": " << complaint << "\n";
   }
   summary.state_hash = simulation.state_hash();

@@ -91,8 +91,8 @@ void check_not_read(const Options& options, const std::string& settings) {
 const char* const usage_text =
     R"(Runs the simulation on a recorded hand, without ROS master or clock; equal input gives bit-identical CSV.
 
-replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag [--parent FRAME] [--child FRAME])
-       [--hand-only] [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
+replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag [--parent FRAME] [--child FRAME]
+       [--hand-only]) [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
 
   --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
   --motion    a hand: lines of `t x y z qx qy qz qw [button]` (t in s; x, y, z in m; button 0 or 1), or a script
@@ -151,7 +151,7 @@ The last line on standard output is one JSON object (null: no number):
   steps_rejected                            steps without a usable result: the fork was rigid, or the object blocked
   time_lost                                 [s] during which an object did not follow its equation of motion
   changes                                   changes by services and panels that the bag has
-  changes_made_again                        changes that were carried out again, not loaded from the bag
+  changes_replayed                        changes that were carried out again, not loaded from the bag
   changes_mismatched                        changes that led to another state than the recorded one
   state_hash, active, skipped               of the final state; the subsystems that ran; those that did not
 Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.

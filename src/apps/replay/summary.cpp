@@ -64,8 +64,9 @@ std::size_t Summary::samples_rejected() const {
 std::vector<std::string> Summary::warnings() const {
   std::vector<std::string> found;
   if (2 * samples_rejected() > samples) {
-    found.push_back(std::to_string(samples_rejected()) + " of " + std::to_string(samples) +
-                    " samples were rejected: positions are in metres, times in seconds, limits in input.*");
+    found.push_back(
+        std::to_string(samples_rejected()) + " of " + std::to_string(samples) +
+        " samples were rejected: are positions in metres and times in seconds? The limits are the settings input.*");
   }
   if (advance.steps_fallback * fallback_share > static_cast<double>(advance.steps)) {
     found.push_back("a fallback rule took " + std::to_string(advance.steps_fallback) +
@@ -100,7 +101,7 @@ std::string Summary::json() const {
       << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback
       << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_unsolved\": " << advance.steps_unsolved
       << ", \"time_lost\": " << number(advance.time_lost) << ", \"steps_rejected\": " << advance.steps_rejected
-      << ", \"changes\": " << changes.repeated + changes.restored << ", \"changes_made_again\": " << changes.repeated
+      << ", \"changes\": " << changes.repeated + changes.restored << ", \"changes_replayed\": " << changes.repeated
       << ", \"changes_mismatched\": " << changes.mismatches.size() << ", \"state_hash\": \"" << math::to_hex(state_hash)
       << "\", \"active\": " << list_of(advance.active()) << ", \"skipped\": " << list_of(advance.skipped()) << "}";
   return out.str();

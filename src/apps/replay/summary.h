@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/live/journal.h"
 
 namespace spring_workbench::replay {

@@ -98,7 +98,7 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
     status.warn("no samples: the hand stays at rest; is the tracker on, and the sensor in view?");
   if (hand.reacquisition.losses > last.hand.reacquisition.losses) {
     status.warn("the hand was lost");
-    ROS_WARN_STREAM(what << ": no sample for the time input.loss_timeout: the hand was lost");
+    ROS_WARN_STREAM(what << ": the hand was lost: no sample for longer than input.loss_timeout");
   }
   if (hand.gate.dropouts > last.hand.gate.dropouts) {
     const std::string complaint = complaint_about_gaps(hand.gate, dropout_after_);
@@ -144,7 +144,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   if (loop.deadlines_missed > last_loop_.deadlines_missed)
     status.warn(increase("deadlines missed", last_loop_.deadlines_missed, loop.deadlines_missed));
   if (loop.waits > last_loop_.waits)
-    status.warn("the loop waits, because publishing takes too long: reduce rate or subscribers");
+    status.warn("the loop waits for publishing: lower the rate or the number of subscribers");
   if (loop.time_skipped > last_loop_.time_skipped)
     status.warn(increase("skipped without input [s]", last_loop_.time_skipped, loop.time_skipped));
   if (loop.cycles_behind > last_loop_.cycles_behind)

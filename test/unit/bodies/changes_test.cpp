@@ -11,7 +11,7 @@ namespace {
 
 /// A simple model: stores the number of each object's last change.
 struct Model {
-  Changes changes;
+  ChangeLog changes;
   std::vector<std::uint64_t> at;
   std::uint64_t count = 0;
 
@@ -33,25 +33,25 @@ struct Model {
 };
 
 /// Over random sequences of changes, and of more and fewer objects.
-TEST(Changes, AreThoseSinceAnyMoment) {
+TEST(ChangeLog, AreThoseSinceAnyMoment) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     Model model;
-    std::vector<std::pair<Changes::Revision, std::uint64_t>> moments{{{}, 0}, {model.changes.now(), 0}};
+    std::vector<std::pair<ChangeLog::Revision, std::uint64_t>> moments{{{}, 0}, {model.changes.now(), 0}};
     EXPECT_TRUE(model.changes.since({}).empty());
     for (int k = 0; k < 100; ++k) {
       if (k % 40 == 0) model.reset(random() % 30);
       for (unsigned n = random() % 4; n > 0 && !model.at.empty(); --n) model.note(random() % model.at.size());
       const auto& [moment, count] = moments[random() % moments.size()];
       EXPECT_EQ(model.changes.since(moment), model.since(count)) << "seed " << seed << ", " << k;
-      EXPECT_EQ(model.changes.since(Changes().now()), model.since(0)) << "of other objects, all";
+      EXPECT_EQ(model.changes.since(ChangeLog().now()), model.since(0)) << "of other objects, all";
       moments.emplace_back(model.changes.now(), model.count);
     }
   }
 }
 
 /// Of two that follow each other now and then.
-TEST(Changes, ThatDifferAreThoseHereAndThere) {
+TEST(ChangeLog, ThatDifferAreThoseHereAndThere) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     const std::size_t objects = 1 + random() % 30;

@@ -271,7 +271,7 @@ TEST(CollocationStep, ContinuesBitIdenticallyFromARestoredHistory) {
     const double h = length_of(i);
     math::StateArchive saved;
     saved(steps);
-    const math::StateArchive::Words words = saved.taken();
+    const math::StateArchive::Words words = saved.words();
     math::StateArchive given(words);
     given(restored);
     EXPECT_TRUE(given.at_end());

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/math/so3.h"
 #include "support/bench_scenes.h"
 
@@ -107,12 +107,12 @@ TEST(DeadBand, WhatATremblingHandHoldsSleepsWhileTheHandRests) {
     simulation::SimulationSettings settings;
     settings.grasp.object = "box";
     simulation::Simulation simulation(scene, settings);
-    Feed feed(simulation, with_band(banded ? kBand : 0.0, kAngleBand));
+    InputFilter filter(simulation, with_band(banded ? kBand : 0.0, kAngleBand));
     for (int k = 0; k <= 300; ++k) {
       const double t = kInterval * k;
-      feed.push_stylus({t, trembling(t, 8e-5, 1e-4, random)});
+      filter.push_stylus({t, trembling(t, 8e-5, 1e-4, random)});
       if (k < 2) continue;
-      feed.advance_to(t - 2.0 * kInterval);
+      filter.advance_to(t - 2.0 * kInterval);
       const bool rested = (t > 1.7 && t < 2.0) || t > 5.5;
       const bool moves = t > 2.2 && t < 4.0;
       if (!rested && !moves) continue;

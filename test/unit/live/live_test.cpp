@@ -269,19 +269,19 @@ TEST(LookAhead, WhatIsShownDoesNotGoBack) {
 /// An object is removed while there is no time to look ahead: the copy still contains it and does not match the scene.
 TEST(LookAhead, WhatHasNotFollowedAnEditIsNotShown) {
   simulation::Simulation committed(two_boxes(), {});
-  hand_input::Feed feed(committed, hand_input::InputSettings());
+  hand_input::InputFilter filter(committed, hand_input::InputSettings());
   LookAhead ahead(two_boxes(), {});
-  for (int k = 0; k < 10; ++k) feed.push_stylus({interval * k, pointing_down(left)});
+  for (int k = 0; k < 10; ++k) filter.push_stylus({interval * k, pointing_down(left)});
   const Pace quick;
   Pace slow;
   slow.committed(1e-3, 1.0, 0.0);
-  ahead.show_newest(committed, feed, 0.05, quick);
+  ahead.show_newest(committed, filter, 0.05, quick);
   EXPECT_TRUE(ahead.has_followed());
   committed.edit({simulation::ObjectEdit::Action::remove, "right", "", std::nullopt});
   ahead.restart();
-  ahead.show_newest(committed, feed, 0.05, slow);
+  ahead.show_newest(committed, filter, 0.05, slow);
   EXPECT_FALSE(ahead.has_followed());
-  ahead.show_newest(committed, feed, 0.05, quick);
+  ahead.show_newest(committed, filter, 0.05, quick);
   EXPECT_TRUE(ahead.has_followed());
   EXPECT_EQ(ahead.shown().objects().size(), 1u);
 }

@@ -20,7 +20,7 @@ ExternalWrench sample(double t, double force) {
 math::StateArchive::Words words(WrenchTrack& track) {
   math::StateArchive archive;
   track.exchange(archive);
-  return archive.taken();
+  return archive.words();
 }
 
 TEST(WrenchTrack, EachSampleActsFromItsTimeToTheNext) {

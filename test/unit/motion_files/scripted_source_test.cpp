@@ -93,8 +93,8 @@ TEST(ScriptedSource, BadScriptsNameFileLineFieldAndRule) {
       {"rate: 50\nwaypoints:\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}\n - {t: 0, pose: [0, 0, 0, 0, 0, 0, 1]}",
        ":4: waypoints[1].t: invalid value '0': expected a time later than"},
       {"rate: 10000\nwaypoints:\n - {t: 5, pose: [0, 0, 0, 0, 0, 0, 1]}\n - {t: 1e6, pose: [0, 0, 0, 0, 0, 0, 1]}",
-       ":4: waypoints[1].t: invalid value '1e6': expected at most 1000 s after the first, which at rate = 10000 Hz are "
-       "1e7 samples"},
+       ":4: waypoints[1].t: invalid value '1e6': expected at most 1000 s after the first (1e7 samples at rate = "
+       "10000 Hz)"},
       {"rate: [", ":1: not YAML"},
   };
   const test_support::TemporaryFolder folder;

@@ -152,7 +152,7 @@ TEST(SavedScenes, WhereTheyMayNotBeTheyAreRefused) {
   EXPECT_EQ(refusal(folder.path("good.urdf")), "");
   const std::string outside = elsewhere.path("box.urdf");
   EXPECT_EQ(refusal(outside), invalid(outside) + "a file in a ROS package or in one of the folders " + folder.path("") +
-                                  " (more: the parameter scene_roots, or the argument roots)");
+                                  " (to add folders, use the parameter scene_roots or the argument roots)");
   const std::string above = folder.path("../box.urdf"), in_package = invalid(above) + "a file in a ROS package";
   EXPECT_EQ(refusal(above).substr(0, in_package.size()), in_package);
   const std::string rule = "a package:// URI or an absolute path, in a folder that exists";

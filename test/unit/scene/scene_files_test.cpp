@@ -156,7 +156,7 @@ TEST_F(Collection, DefectsAreReportedWithTheirLink) {
     }
     return false;
   };
-  EXPECT_TRUE(has_warning("bullet3/block.urdf", "block_2_base_link", "placeholder"));
+  EXPECT_TRUE(has_warning("bullet3/block.urdf", "block_2_base_link", "implausible"));
   EXPECT_TRUE(has_warning("bullet3/sphere_small_zeroinertia.urdf", "base_link", "positive definite"));
   EXPECT_TRUE(has_warning("bullet3/dinnerware/plate.urdf", "cube", "inertial cannot be read"));
   EXPECT_TRUE(has_warning("bullet3/plane.urdf", "planeLink", "no mass"));

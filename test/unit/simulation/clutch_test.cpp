@@ -171,7 +171,7 @@ TEST(HandTimeScale, IsAHandThatIsSoMuchFaster) {
     SimulationSettings slow, fast;
     slow.hand_time_scale = scale;
     fast.dropout_after = scale * slow.dropout_after;
-    fast.wrench_timeout = scale * slow.wrench_timeout;
+    fast.external_wrench_timeout = scale * slow.external_wrench_timeout;
     Simulation a(one_box(scene::ContactMode::stop), slow), b(one_box(scene::ContactMode::stop), fast);
     live_through(1.0, a);
     live_through(scale, b);

@@ -203,7 +203,7 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
   expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))), "name: held is held or pushed; release it first");
   expect({Action::move, "below", "", std::nullopt}, "pose: expected a pose to move to");
   expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "pose: expected a finite pose");
-  expect(addition("wall", std::nullopt), "name: invalid value 'wall': expected a new name");
+  expect(addition("wall", std::nullopt), "name: invalid value 'wall': expected a name that is not in use");
   expect(
       {Action::add, "brick", folder_.path("none.urdf"), std::nullopt},
       "urdf: invalid value '" + folder_.path("none.urdf") + "': expected a readable file (No such file or directory)");

@@ -129,7 +129,7 @@ TEST(ExternalWrench, ActsAtTheTip) {
 TEST(ExternalWrench, TheWatchdogEndsItAsAZeroDoes) {
   for (const scene::ContactMode mode : modes) {
     SimulationSettings set;
-    set.wrench_timeout = 0.25;
+    set.external_wrench_timeout = 0.25;
     Simulation ended = holding(one_box(mode), set), zero = holding(one_box(mode), set);
     const Wrench pull{{3.0, 0.0, 5.0}, {0.0, 0.0, 0.1}};
     for (Simulation* simulation : {&ended, &zero}) simulation->push_external_wrench({1.0, pull, Axes::world});

@@ -56,7 +56,7 @@ std::string fingerprint(const SimulationSettings& s) {
       << s.grasp.world_goal.heaviest.value_or(-1.0) << s.grasp.start_follow << '|' << s.grasp.object << '|'
       << name(s.grasp.release) << '|';
   if (s.grasp.X_OE) out << s.grasp.X_OE->matrix();
-  out << '|' << s.dropout_after << '|' << s.wrench_timeout << '|' << s.impact_bisections;
+  out << '|' << s.dropout_after << '|' << s.external_wrench_timeout << '|' << s.impact_bisections;
   return out.str();
 }
 

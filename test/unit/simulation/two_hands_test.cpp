@@ -82,6 +82,32 @@ TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
   EXPECT_GT(two.simulation.tool(1).tip_wrench_W.force.norm(), 0.1);
 }
 
+TEST(TwoHands, MessagesNameWhatEachHandGot) {
+  BothHold two(with_stiffness(2000.0, 500.0, 5.0));
+  const auto set_stretch = [&](double k, std::optional<std::size_t> hand) {
+    rod::ForkChange change;
+    change.stiffness.stretch = k;
+    return two.simulation.change(change, {}, hand).message;
+  };
+  const auto forks_named = [](const std::string& message) {
+    int forks = 0;
+    for (std::size_t at = message.find("stiffness "); at != message.npos; at = message.find("stiffness ", at + 1)) {
+      ++forks;
+    }
+    return forks;
+  };
+  set_stretch(1000.0, 0);
+  const std::string alike = set_stretch(3000.0, std::nullopt);
+  EXPECT_EQ(forks_named(alike), 1) << alike;
+  rod::ForkChange bend_of_one;
+  bend_of_one.stiffness.bend = 700.0;
+  two.simulation.change(bend_of_one, {}, 1);
+  const std::string unlike = set_stretch(4000.0, std::nullopt);
+  EXPECT_EQ(forks_named(unlike), 2) << unlike;
+  EXPECT_NE(unlike.find("700"), std::string::npos) << unlike;
+  EXPECT_EQ(two.simulation.calibrate().message, "calibrated for box");
+}
+
 /// Largest speed of a box that two hands carry, each turning about its own fork [m/s].
 double fastest(const SimulationSettings& set) {
   BothHold two(set, 0.5, scene::ContactMode::stop);

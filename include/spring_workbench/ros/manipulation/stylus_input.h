@@ -44,7 +44,7 @@ constexpr char another_sender[] = "another sender";
 
 /// Input of one stylus: subscribes to /tf, /tf_static and its buttons, and queues the events until they are taken.
 /// Unusable messages are rejected, counted by reason and logged in one throttled line. Poses are not filtered here; the
-/// outlier gate is in the Feed.
+/// outlier gate is in the InputFilter.
 class StylusInput {
  public:
   /// Subscribes to the child frame `stylus` and to `stylus/joy`, or to those of a further `hand` (button 0 grasps while

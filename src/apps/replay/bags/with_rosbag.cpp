@@ -238,9 +238,8 @@ class BagReader {
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
     validation::refuse(path_, "transform", parent_ + " -> " + child_,
-                       there.empty()
-                           ? "a transform of the bag, which has none"
-                           : "one of those in the bag (--parent and --child choose it): " + validation::join(there));
+                       there.empty() ? "a transform of the bag, which has none"
+                                     : "one of " + validation::join(there) + " (choose with --parent and --child)");
   }
 
   std::string path_, parent_, child_;
@@ -281,8 +280,9 @@ std::vector<live::Entry> read_journal(const std::string& path) {
     std::vector<std::vector<live::Entry>> lives = live::lives_of(std::move(entries));
     if (lives.empty()) return std::vector<live::Entry>();
     if (lives.size() > 1) {
-      std::cerr << "warning: " << path << ": manipulation was started " << lives.size() - 1
-                << " times during the recording: the run after the last start is replayed\n";
+      std::cerr << "warning: " << path
+                << ": manipulation was restarted during the recording (restarts: " << lives.size() - 1
+                << "): only the run after the last start is replayed\n";
     }
     return live::from_first_complete(std::move(lives.back()));
   });

@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "benchmark/baselines.h"
 #include "benchmark/held_body.h"
 #include "benchmark/mujoco_models.h"
 #include "benchmark/mujoco_world.h"
-#include "benchmark/peers.h"
 #include "benchmark/single_spring.h"
 #include "benchmark/stepping_loop.h"
 
@@ -269,16 +269,16 @@ std::vector<RodEngine> mujoco_rods() {
           {"mujoco_stable", RodForce::When::end_of_step, made_with(mjINT_EULER)}};
 }
 
-std::vector<MethodPtr> mujoco_peers() {
+std::vector<MethodPtr> mujoco_baselines() {
   mujoco_files();
-  std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<MujocoForce>(mjINT_EULER));
-  peers.push_back(std::make_unique<MujocoForce>(mjINT_RK4));
+  std::vector<MethodPtr> baselines;
+  baselines.push_back(std::make_unique<MujocoForce>(mjINT_EULER));
+  baselines.push_back(std::make_unique<MujocoForce>(mjINT_RK4));
   for (const auto& [name, integrator] : mujoco_joint_modes()) {
-    peers.push_back(std::make_unique<MujocoJoints>(name, integrator));
+    baselines.push_back(std::make_unique<MujocoJoints>(name, integrator));
   }
-  peers.push_back(std::make_unique<MujocoWeld>());
-  return peers;
+  baselines.push_back(std::make_unique<MujocoWeld>());
+  return baselines;
 }
 
 }  // namespace spring_workbench::benchmark

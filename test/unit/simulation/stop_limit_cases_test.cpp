@@ -8,7 +8,7 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation::stop_extremes_test {
+namespace spring_workbench::simulation::stop_limit_cases_test {
 namespace {
 
 constexpr double edge = 0.1;  // m, of the held box
@@ -26,7 +26,7 @@ double energy(const Simulation& s, const scene::Scene& scene) {
 }
 
 class PressedAndShifted : public ::testing::TestWithParam<double> {};  // by damping ratio
-INSTANTIATE_TEST_SUITE_P(StopExtremes, PressedAndShifted, ::testing::Values(0.1, 1.0, 10.0), [](const auto& tested) {
+INSTANTIATE_TEST_SUITE_P(StopLimitCases, PressedAndShifted, ::testing::Values(0.1, 1.0, 10.0), [](const auto& tested) {
   return tested.param < 1.0 ? "underdamped" : tested.param > 1.0 ? "overdamped" : "critical";
 });
 
@@ -80,7 +80,7 @@ TEST_P(PressedAndShifted, Follow) {
   }
 }
 
-TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
+TEST(StopLimitCases, AThousandTimesHeavierOrLighterRestsOnTheOther) {
   for (const double upper_mass : {1e-3, 1.0, 1e3}) {
     const Vector3d size = Vector3d::Constant(edge);
     Simulation s(scene_of({box("lower", size, 1.0, Vector3d(0, 0, 0.05)),
@@ -100,7 +100,7 @@ TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
 
 /// Pressed onto a ledge that reaches under it by so little that the way out sideways is the shorter one as soon as it
 /// is in it: it lies on the ledge under the load, or turns off it, but does not hang there without a force.
-TEST(StopExtremes, OnALedgeOfAFractionOfAMillimetreItRestsOrTurnsOff) {
+TEST(StopLimitCases, OnALedgeOfAFractionOfAMillimetreItRestsOrTurnsOff) {
   constexpr double height = 0.5, above = 5e-3, lowered = 0.01, k = 1e4;
   for (const double tilt : {0.0, 0.02, 0.3}) {
     for (const double ledge : {9e-4, 3e-4, 5e-5}) {
@@ -129,7 +129,7 @@ TEST(StopExtremes, OnALedgeOfAFractionOfAMillimetreItRestsOrTurnsOff) {
 
 /// Grasped while it touches bench and neighbour, or penetrates the neighbour by `overlap`: it is separated without
 /// being ejected.
-TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
+TEST(StopLimitCases, GraspedWhileItTouchesOrOverlapsItComesAlong) {
   for (const double overlap : {0.0, 1e-4, 5e-3}) {
     for (const double k : {100.0, 1e5}) {
       Simulation s(scene_of({box("box", Vector3d::Constant(edge), 1.0, Vector3d(0, 0, 0.05)),
@@ -158,7 +158,7 @@ TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
   }
 }
 
-TEST(StopExtremes, AMasslessOneFollowsTheHandAndStaysOutOfTheBench) {
+TEST(StopLimitCases, AMasslessOneFollowsTheHandAndStaysOutOfTheBench) {
   scene::Body light = box("light", Vector3d::Constant(edge), 1.0, Vector3d(0, 0, 0.05));
   light.mass_properties = scene::MassProperties();
   SimulationSettings set;
@@ -177,4 +177,4 @@ TEST(StopExtremes, AMasslessOneFollowsTheHandAndStaysOutOfTheBench) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation::stop_extremes_test
+}  // namespace spring_workbench::simulation::stop_limit_cases_test

@@ -1,4 +1,4 @@
-#include "benchmark/contact/wild_motions.h"
+#include "benchmark/contact/stress_motions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,13 +64,13 @@ struct Setting {
   RigidTransform X_WF = at_middle();  // pose of the room or the pin
 };
 
-Setting set_scene(const WildMotion& motion, const Matrix3d& R_scene, const Matrix3d& R_held) {
+Setting set_scene(const StressMotion& motion, const Matrix3d& R_scene, const Matrix3d& R_held) {
   Setting s;
   s.scene.name = s.scene.path = name_of(motion.scene);
   s.scene.contact = motion.contact;
   s.X_WF = at_middle(R_scene);
   const double mass = 0.3;
-  if (motion.scene == WildScene::rod_in_room) {
+  if (motion.scene == StressScene::rod_in_room) {
     s.scene.bodies.push_back(
         movable("held", geometry::Box{rod_size}, at_middle(R_held), friction, mass, box_inertia(mass, rod_size)));
     for (int axis = 0; axis < 3; ++axis) {
@@ -90,12 +90,12 @@ Setting set_scene(const WildMotion& motion, const Matrix3d& R_scene, const Matri
   return s;
 }
 
-void look(const WildMotion& motion, const Setting& setting, const RigidTransform& X_WO, WildResult& result) {
+void look(const StressMotion& motion, const Setting& setting, const RigidTransform& X_WO, StressResult& result) {
   if (!X_WO.matrix().allFinite()) throw std::runtime_error("a pose that is not finite");
   const RigidTransform X_FO = setting.X_WF.inverse() * X_WO;
   double depth = 0.0;
   bool outside = false;
-  if (motion.scene == WildScene::rod_in_room) {
+  if (motion.scene == StressScene::rod_in_room) {
     for (int i = 0; i < 8; ++i) {
       const Vector3d sign((i & 1) ? 0.5 : -0.5, (i & 2) ? 0.5 : -0.5, (i & 4) ? 0.5 : -0.5);
       const Vector3d corner = X_FO * rod_size.cwiseProduct(sign);
@@ -112,22 +112,22 @@ void look(const WildMotion& motion, const Setting& setting, const RigidTransform
 
 }  // namespace
 
-const std::vector<WildScene>& wild_scenes() {
-  static const std::vector<WildScene> all{WildScene::rod_in_room, WildScene::ring_on_rod};
+const std::vector<StressScene>& stress_scenes() {
+  static const std::vector<StressScene> all{StressScene::rod_in_room, StressScene::ring_on_rod};
   return all;
 }
 
-std::string name_of(WildScene scene) {
+std::string name_of(StressScene scene) {
   switch (scene) {
-    case WildScene::rod_in_room:
+    case StressScene::rod_in_room:
       return "rod_in_room";
-    case WildScene::ring_on_rod:
+    case StressScene::ring_on_rod:
       return "ring_on_rod";
   }
   throw std::logic_error("a scene without a name");
 }
 
-WildResult run(const WildMotion& motion) {
+StressResult run(const StressMotion& motion) {
   std::mt19937 random(motion.seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const Matrix3d R_scene = math::exp_so3(in_ball(M_PI, random)), R_held = math::exp_so3(in_ball(M_PI, random));
@@ -154,14 +154,14 @@ WildResult run(const WildMotion& motion) {
     X_WH.translation() += sample_time * v;
     X_WH.linear() = math::exp_so3(sample_time * w) * X_WH.linear();
   }
-  WildResult result;
+  StressResult result;
   const double begin = processor_time();
   for (double t = 0.0; t < duration + 1e-9; t += 0.002) {
     const simulation::AdvanceReport report = simulation.advance_to(t);
     result.steps += static_cast<int>(report.steps);
     result.steps_blocked += report.steps_blocked;
     result.time_lost += report.time_lost;
-    result.refused += report.steps_rejected;
+    result.rejected += report.steps_rejected;
     look(motion, setting, simulation.objects()[0].X_WO, result);
   }
   result.seconds = processor_time() - begin;

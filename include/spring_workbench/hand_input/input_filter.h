@@ -15,8 +15,8 @@
 
 namespace spring_workbench::hand_input {
 
-/// Input that a feed passed on to its simulation, for a record of a run. The same inputs in the same order, each given
-/// at the same simulated time (`committed`), lead to a bit-identical future.
+/// Input that an input filter passed on to its simulation, for a record of a run. The same inputs in the same order,
+/// each given at the same simulated time (`committed`), lead to a bit-identical future.
 struct AcceptedInput {
   /// Kind of an input.
   enum class Kind {
@@ -48,28 +48,29 @@ struct AcceptedInput {
 /// Callers with clean poses do not need it: they call Simulation::push_stylus(). A live loop, with the pose X_WP of the
 /// tracker in world and one steady clock:
 ///
-///     hand_input::Feed feed(simulation, {});
+///     hand_input::InputFilter filter(simulation, {});
 ///     while (running()) {
-///       const hand_input::LocalTime now{seconds(), attended_seconds()};  // see there
-///       while (const std::optional<hand_input::RawSample> raw = receive()) feed.push_stylus(*raw, X_WP, now);
-///       while (const std::optional<double> t = feed.next_stop(now)) feed.advance_to(*t);
+///       const hand_input::LocalTime now{seconds(), attended_seconds()};  // by two clocks: see LocalTime
+///       while (const std::optional<hand_input::RawSample> raw = receive()) filter.push_stylus(*raw, X_WP, now);
+///       while (const std::optional<double> t = filter.next_stop(now)) filter.advance_to(*t);
 ///     }
 ///
 /// The samples of each hand pass an outlier gate (SampleGate), smoothing, and re-acquisition (Reacquisition). In a live
 /// loop next_stop() decides up to which time the input is complete, so that the result does not depend on when messages
 /// arrive. Offline, push all samples and then call advance_to() for any time. Hands are numbered as in Simulation;
-/// another number throws std::out_of_range. Times are those of the hand's clock [s]. A feed has no thread; the same
+/// another number throws InputError. Times are those of the hand's clock [s]. A filter has no thread; the same
 /// calls give bit-identical results on processors of the same kind.
-class Feed {
+class InputFilter {
  public:
   /// Whether the motion of the hands is predicted.
   enum class Prediction {
     off,  ///< predict() is not used
     on,   ///< predict() may be used; costs time for every sample
   };
-  /// Feeds `simulation`, which must outlive the feed.
-  Feed(simulation::Simulation& simulation, const InputSettings& settings, Prediction prediction = Prediction::off);
-  ~Feed();
+  /// Feeds `simulation`, which must outlive the input filter.
+  InputFilter(simulation::Simulation& simulation, const InputSettings& settings,
+              Prediction prediction = Prediction::off);
+  ~InputFilter();
 
   /// Adds a sample as received, in a tracker's frame P whose pose in world is `X_WP`. `arrival`: the local time now.
   /// Returns the result of the gate. A rejected sample is dropped.
@@ -102,7 +103,7 @@ class Feed {
   /// Returns the simulated time that was reached [s]; −infinity before the first advance.
   double committed() const;
   bool is_interrupted() const { return target_.has_value(); }  ///< whether advance_to() paused on its way
-  /// Returns the time to which an interrupted advance is on its way [s]; committed() if none is.
+  /// Returns the time that an interrupted advance is heading for [s]; committed() if none is.
   double target() const { return target_.value_or(committed()); }
   /// Advances the simulation to time `t` [s]. With `on_loss: release`, a hand that is lost before `t` releases its
   /// object at the time of the loss. The advance is interrupted after the step that reaches `pause` [s]; going on with
@@ -131,6 +132,8 @@ class Feed {
 
  private:
   struct Hand;
+  const Hand& hand_at(std::size_t index) const;
+  Hand& hand_at(std::size_t index);
   void follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP, const LocalTime& arrival,
               std::size_t hand);
 

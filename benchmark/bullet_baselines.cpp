@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "benchmark/baselines.h"
 #include "benchmark/held_body.h"
-#include "benchmark/peers.h"
 #include "benchmark/single_spring.h"
 #include "benchmark/stepping_loop.h"
 
@@ -201,12 +201,12 @@ std::vector<RodEngine> bullet_rods() {
           {"bullet_stable", RodForce::When::end_of_step, make}};
 }
 
-std::vector<MethodPtr> bullet_peers() {
-  std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<BulletExplicit>());
-  peers.push_back(std::make_unique<BulletSpring2>(true));
-  peers.push_back(std::make_unique<BulletSpring2>(false));
-  return peers;
+std::vector<MethodPtr> bullet_baselines() {
+  std::vector<MethodPtr> baselines;
+  baselines.push_back(std::make_unique<BulletExplicit>());
+  baselines.push_back(std::make_unique<BulletSpring2>(true));
+  baselines.push_back(std::make_unique<BulletSpring2>(false));
+  return baselines;
 }
 
 }  // namespace spring_workbench::benchmark

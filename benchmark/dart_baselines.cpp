@@ -8,8 +8,8 @@
 #include <dart/simulation/World.hpp>
 #include <utility>
 
+#include "benchmark/baselines.h"
 #include "benchmark/held_body.h"
-#include "benchmark/peers.h"
 #include "benchmark/stepping_loop.h"
 
 namespace spring_workbench::benchmark {
@@ -186,10 +186,10 @@ std::vector<RodEngine> dart_rods() {
   return {{"dart_explicit", RodForce::When::start_of_step, make}, {"dart_stable", RodForce::When::end_of_step, make}};
 }
 
-std::vector<MethodPtr> dart_peers() {
-  std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<DartJointSprings>());
-  return peers;
+std::vector<MethodPtr> dart_baselines() {
+  std::vector<MethodPtr> baselines;
+  baselines.push_back(std::make_unique<DartJointSprings>());
+  return baselines;
 }
 
 }  // namespace spring_workbench::benchmark

@@ -10,13 +10,13 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation::dynamic_extremes_test {
+namespace spring_workbench::simulation::dynamic_limit_cases_test {
 namespace {
 
 constexpr double g = 9.81;
 constexpr double moving = 0.2, resting = 0.2;  // s, of the hand
 
-struct Extreme {
+struct LimitCase {
   std::vector<scene::Body> bodies;
   std::string held;
   Vector3d path = Vector3d::Zero();  // of the hand
@@ -37,20 +37,20 @@ double energy(const scene::Scene& scene, const Simulation& s) {
 }
 
 /// The hand goes its way and rests; returns the simulation at the end.
-Simulation run(const Extreme& extreme, unsigned seed) {
-  const scene::Scene scene = scene_of(extreme.bodies, scene::ContactMode::dynamic);
+Simulation run(const LimitCase& limit_case, unsigned seed) {
+  const scene::Scene scene = scene_of(limit_case.bodies, scene::ContactMode::dynamic);
   SimulationSettings set;
-  set.fork.stiffness = {extreme.stiffness, extreme.stiffness, 0.01 * extreme.stiffness};
-  set.grasp.object = extreme.held;
+  set.fork.stiffness = {limit_case.stiffness, limit_case.stiffness, 0.01 * limit_case.stiffness};
+  set.grasp.object = limit_case.held;
   Simulation s(scene, set);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> some(-0.005, 0.005);
-  const Vector3d start = object(s, extreme.held).X_WO.translation() + Vector3d(0, 0, set.fork.length);
-  const Vector3d end = start + extreme.path + Vector3d(some(random), some(random), some(random));
+  const Vector3d start = object(s, limit_case.held).X_WO.translation() + Vector3d(0, 0, set.fork.length);
+  const Vector3d end = start + limit_case.path + Vector3d(some(random), some(random), some(random));
   push_move(s, 0.0, moving, start, end, 10.0 * some(random));
   for (double t = moving + 0.02; t < moving + resting + 0.03; t += 0.02) s.push_stylus({t, pointing_down(end)});
   double weight = 0.0, lowest = std::numeric_limits<double>::infinity(), drift = 0.0;
-  for (const scene::Body& body : extreme.bodies) weight += g * body.mass_properties.mass;
+  for (const scene::Body& body : limit_case.bodies) weight += g * body.mass_properties.mass;
   for (double t = 0.02; t < moving + resting; t += 0.02) {
     const AdvanceReport report = s.advance_to(t);
     EXPECT_EQ(report.steps_rejected, 0) << t;
@@ -73,8 +73,8 @@ scene::Body cube(const std::string& name, double edge, double mass, const Vector
 
 class Seeded : public ::testing::TestWithParam<unsigned> {};
 
-TEST(Extremes, AHeldObjectPutOnAStackOfNineLetsItStand) {
-  Extreme e;
+TEST(LimitCases, AHeldObjectPutOnAStackOfNineLetsItStand) {
+  LimitCase e;
   for (int i = 0; i < 9; ++i)
     e.bodies.push_back(box("b" + std::to_string(i), {0.1, 0.1, 0.05}, 1.0, {0, 0, 0.025 + 0.05 * i}));
   e.bodies.push_back(box("held", {0.1, 0.1, 0.05}, 1.0, {0, 0, 0.52}));
@@ -92,7 +92,7 @@ TEST(Extremes, AHeldObjectPutOnAStackOfNineLetsItStand) {
 TEST_P(Seeded, LightOnHeavyAndHeavyOnLight) {
   for (const auto& [held, other] : {std::pair(1e-3, 1.0), std::pair(1.0, 1e-3)}) {
     for (const double stiffness : {10.0, 1e3}) {
-      Extreme e;
+      LimitCase e;
       e.bodies = {cube("held", 0.06, held, {0, 0, 0.1}), cube("other", 0.06, other, {0.01, 0, 0.03})};
       e.held = "held";
       e.path = {0, 0, -0.03};
@@ -107,7 +107,7 @@ TEST_P(Seeded, LightOnHeavyAndHeavyOnLight) {
 }
 
 TEST_P(Seeded, AMasslessOneStopsAtAWall) {
-  Extreme e;
+  LimitCase e;
   e.bodies = {cube("held", 0.06, 1.0, {0, 0, 0.1}), box("wall", {0.02, 0.4, 0.4}, 0.0, {0.06, 0, 0.2})};
   e.bodies[0].mass_properties = scene::MassProperties();
   e.held = "held";
@@ -118,7 +118,7 @@ TEST_P(Seeded, AMasslessOneStopsAtAWall) {
 
 TEST_P(Seeded, GraspedWhileItTouches) {
   for (const double stiffness : {100.0, 1e7}) {
-    Extreme e;
+    LimitCase e;
     e.bodies = {cube("held", 0.06, 0.5, {0, 0, 0.03}), cube("neighbour", 0.06, 0.5, {0.06, 0, 0.03}),
                 cube("above", 0.04, 0.2, {0, 0, 0.08}), box("wall", {0.02, 0.4, 0.4}, 0.0, {-0.04, 0, 0.2})};
     e.held = "held";
@@ -130,7 +130,7 @@ TEST_P(Seeded, GraspedWhileItTouches) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Extremes, Seeded, ::testing::Range(0u, 2u));
+INSTANTIATE_TEST_SUITE_P(LimitCases, Seeded, ::testing::Range(0u, 2u));
 
 }  // namespace
-}  // namespace spring_workbench::simulation::dynamic_extremes_test
+}  // namespace spring_workbench::simulation::dynamic_limit_cases_test

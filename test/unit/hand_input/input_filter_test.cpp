@@ -1,15 +1,17 @@
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/motion/pose_predictor.h"
+#include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::hand_input::feed_test {
+namespace spring_workbench::hand_input::input_filter_test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -54,13 +56,13 @@ void expect_same_objects(const simulation::Simulation& a, const simulation::Simu
 
 /// Samples pushed all at once or one by one with advances in between give identical bits, as long as each advance ends
 /// before the last sample but one, since the motion after it depends on later samples.
-TEST(Feed, AMotionAtOnceAndSampleBySampleAreTheSame) {
+TEST(InputFilter, AMotionAtOnceAndSampleBySampleAreTheSame) {
   for (const double min_cutoff : {0.0, 2.0}) {
     InputSettings settings;
     settings.min_cutoff = min_cutoff;
     const std::vector<motion::PoseSample> samples = shaking_hand();
     simulation::Simulation at_once = make_simulation(), live = make_simulation();
-    Feed feed_at_once(at_once, settings), feed_live(live, settings);
+    InputFilter feed_at_once(at_once, settings), feed_live(live, settings);
     for (const motion::PoseSample& sample : samples) feed_at_once.push_stylus(sample);
     feed_at_once.push_button(0.0, true);
     feed_live.push_button(0.0, true);
@@ -85,20 +87,21 @@ TEST(Feed, AMotionAtOnceAndSampleBySampleAreTheSame) {
   }
 }
 
-/// A feed that predicts gives a copy the samples of a predictor that has seen the same poses; one that does not gives
+/// A filter that predicts gives a copy the samples of a predictor that has seen the same poses; one that does not gives
 /// none, and its simulation is the same.
-TEST(Feed, OnlyOneThatPredictsGivesACopySamples) {
+TEST(InputFilter, OnlyOneThatPredictsGivesACopySamples) {
   simulation::Simulation simulations[] = {make_simulation(), make_simulation()};
-  Feed without(simulations[0], InputSettings()), with(simulations[1], InputSettings(), Feed::Prediction::on);
+  InputFilter without(simulations[0], InputSettings()),
+      with(simulations[1], InputSettings(), InputFilter::Prediction::on);
   motion::PosePredictor predictor;
   with.record([&](const AcceptedInput& accepted) {
     if (accepted.kind == AcceptedInput::Kind::pose) predictor.push({accepted.t, accepted.X_WS});
   });
   for (const motion::PoseSample& sample : shaking_hand()) {
     if (sample.t > 1.99) break;  // before it is lost
-    for (Feed* feed : {&without, &with}) {
-      feed->push_stylus(sample);
-      feed->advance_to(sample.t - 2.0 * kInterval);
+    for (InputFilter* filter : {&without, &with}) {
+      filter->push_stylus(sample);
+      filter->advance_to(sample.t - 2.0 * kInterval);
     }
     simulation::Simulation copies[] = {make_simulation(), make_simulation(), make_simulation()};
     for (simulation::Simulation& copy : copies) copy.copy_state_from(simulations[1]);
@@ -111,27 +114,27 @@ TEST(Feed, OnlyOneThatPredictsGivesACopySamples) {
   }
 }
 
-TEST(Feed, APoseOfAMotionReachesTheSimulationToTheBit) {
+TEST(InputFilter, APoseOfAMotionReachesTheSimulationToTheBit) {
   simulation::Simulation fed = make_simulation(), pushed = make_simulation();
-  Feed feed(fed, InputSettings());
+  InputFilter filter(fed, InputSettings());
   for (const motion::PoseSample& sample : shaking_hand()) {
     if (sample.t > 1.99) break;  // before it is lost
-    EXPECT_TRUE(usable(feed.push_stylus(sample)));
+    EXPECT_TRUE(usable(filter.push_stylus(sample)));
     pushed.push_stylus(sample);
   }
-  feed.push_button(0.0, true);
+  filter.push_button(0.0, true);
   pushed.push_button(0.0, true);
-  feed.advance_to(1.9);
+  filter.advance_to(1.9);
   pushed.advance_to(1.9);
   EXPECT_TRUE(fed.objects()[0].held);
   expect_same_objects(fed, pushed);
 }
 
 /// Raw samples in the frame of a rotated tracker are equivalent to the poses in world.
-TEST(Feed, RawSamplesInATrackersFrameAreThePosesInWorld) {
+TEST(InputFilter, RawSamplesInATrackersFrameAreThePosesInWorld) {
   const RigidTransform X_WP = make_transform(Vector3d(0.3, -0.2, 0.1), Quaterniond(0.8, 0.0, 0.6, 0.0));
   simulation::Simulation a = make_simulation(), b = make_simulation();
-  Feed poses(a, InputSettings()), raw(b, InputSettings());
+  InputFilter poses(a, InputSettings()), raw(b, InputSettings());
   for (const motion::PoseSample& sample : shaking_hand()) {
     const RigidTransform X_PH = X_WP.inverse() * sample.X;
     EXPECT_EQ(raw.push_stylus({sample.t, X_PH.translation(), Quaterniond(X_PH.linear())}, X_WP, {}),
@@ -142,29 +145,29 @@ TEST(Feed, RawSamplesInATrackersFrameAreThePosesInWorld) {
   EXPECT_LT((a.tool().X_WE.matrix() - b.tool().X_WE.matrix()).norm(), 1e-9);
 }
 
-TEST(Feed, LostHandsReleaseEachAtItsTime) {
+TEST(InputFilter, LostHandsReleaseEachAtItsTime) {
   for (const OnLoss on_loss : {OnLoss::freeze, OnLoss::release}) {
     InputSettings settings;
     settings.on_loss = on_loss;
     settings.loss_timeout = 0.5;
     simulation::Simulation simulation = make_simulation();
-    Feed feed(simulation, settings);
+    InputFilter filter(simulation, settings);
     const double ends[] = {1.5, 1.0};  // the second hand is lost first
     for (const std::size_t hand : {0u, 1u}) {
-      feed.push_button(0.0, true, hand);
+      filter.push_button(0.0, true, hand);
       for (double t = 0.0; t < ends[hand] + 0.5 * kInterval; t += kInterval)
-        feed.push_stylus({std::min(t, ends[hand]), pointing_down(hand == 0 ? left : right)}, hand);
+        filter.push_stylus({std::min(t, ends[hand]), pointing_down(hand == 0 ? left : right)}, hand);
     }
-    feed.advance_to(1.4);
+    filter.advance_to(1.4);
     const std::vector<bodies::BodyState> held = simulation.objects();
     ASSERT_TRUE(held[0].held && held[1].held);
     const double end = 5.0;
-    const simulation::AdvanceReport report = feed.advance_to(end);
+    const simulation::AdvanceReport report = filter.advance_to(end);
     EXPECT_NEAR(report.simulated_time, end - 1.4, 1e-9);
     for (const std::size_t hand : {0u, 1u}) {
       const bodies::BodyState& object = simulation.objects()[hand];
       EXPECT_EQ(object.held, on_loss == OnLoss::freeze);
-      EXPECT_EQ(feed.reacquisition_counts(hand).losses, 1u);
+      EXPECT_EQ(filter.reacquisition_counts(hand).losses, 1u);
       const double fall = on_loss == OnLoss::freeze ? 0.0 : end - (ends[hand] + settings.loss_timeout);
       EXPECT_NEAR(held[hand].X_WO.translation().z() - object.X_WO.translation().z(), 0.5 * kGravity * fall * fall,
                   1e-4);
@@ -173,43 +176,43 @@ TEST(Feed, LostHandsReleaseEachAtItsTime) {
 }
 
 /// Commits up to all stops until `now`.
-void commit(Feed& feed, const LocalTime& now) {
-  while (const auto stop = feed.next_stop(now)) feed.advance_to(*stop);
+void commit(InputFilter& filter, const LocalTime& now) {
+  while (const auto stop = filter.next_stop(now)) filter.advance_to(*stop);
 }
 
-TEST(Feed, TheSlowestHandLimitsTimeUntilItIsSilent) {
+TEST(InputFilter, TheSlowestHandLimitsTimeUntilItIsSilent) {
   simulation::Simulation simulation = make_simulation();
-  Feed feed(simulation, InputSettings());
+  InputFilter filter(simulation, InputSettings());
   const RigidTransform X_WP = RigidTransform::Identity();
   const RawSample at_left{0.0, left, Quaterniond(pointing_down(left).linear())};
-  EXPECT_FALSE(feed.has_sample());
-  EXPECT_FALSE(feed.next_stop({1.0, 1.0}));
+  EXPECT_FALSE(filter.has_sample());
+  EXPECT_FALSE(filter.next_stop({1.0, 1.0}));
   for (int k = 0; k < 100; ++k) {
     RawSample sample = at_left;
     sample.t = kInterval * k;
-    feed.push_stylus(sample, X_WP, {sample.t, sample.t}, 0);
-    if (k <= 50) feed.push_stylus(sample, X_WP, {sample.t, sample.t}, 1);
+    filter.push_stylus(sample, X_WP, {sample.t, sample.t}, 0);
+    if (k <= 50) filter.push_stylus(sample, X_WP, {sample.t, sample.t}, 1);
   }
-  commit(feed, {0.99, 0.99});
+  commit(filter, {0.99, 0.99});
   EXPECT_EQ(simulation.time(), kInterval * 49);
-  commit(feed, {1.01, 1.01});  // the second is silent now: only the first counts
+  commit(filter, {1.01, 1.01});  // the second is silent now: only the first counts
   EXPECT_EQ(simulation.time(), kInterval * 98);
-  commit(feed, {2.0, 2.0});  // both are
+  commit(filter, {2.0, 2.0});  // both are
   const double steps = (simulation.time() - kInterval * 99) / simulation.settings().dynamics.step;
   EXPECT_NEAR(steps, std::round(steps), 1e-6);
   EXPECT_NEAR(simulation.time(), 1.98, simulation.settings().dynamics.step);
-  feed.restart();
-  EXPECT_FALSE(feed.has_sample());
-  EXPECT_FALSE(feed.next_stop({3.0, 3.0}));
-  EXPECT_EQ(feed.gate_counts(0).accepted, 100u);
-  EXPECT_FALSE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));  // the gate goes on
-  feed.restart_gate(0);
-  EXPECT_TRUE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));
+  filter.restart();
+  EXPECT_FALSE(filter.has_sample());
+  EXPECT_FALSE(filter.next_stop({3.0, 3.0}));
+  EXPECT_EQ(filter.gate_counts(0).accepted, 100u);
+  EXPECT_FALSE(usable(filter.push_stylus(at_left, X_WP, {}, 0)));  // the gate goes on
+  filter.restart_gate(0);
+  EXPECT_TRUE(usable(filter.push_stylus(at_left, X_WP, {}, 0)));
 }
 
 /// Identical bits whether commits are frequent or rare, or paused after any number of steps, with buttons at any time,
 /// through a loss and a silence.
-TEST(Feed, WhatIsCommittedDependsOnTheMessagesAlone) {
+TEST(InputFilter, WhatIsCommittedDependsOnTheMessagesAlone) {
   std::vector<simulation::SimulationState> ends;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -219,29 +222,29 @@ TEST(Feed, WhatIsCommittedDependsOnTheMessagesAlone) {
     InputSettings settings;
     settings.on_loss = OnLoss::release;
     settings.loss_timeout = 0.52;
-    Feed feed(simulation, settings);
+    InputFilter filter(simulation, settings);
     const auto commit = [&, pauses = pauses](double t) {
-      while (const auto stop = feed.next_stop({10.0 + t, 10.0 + t})) {
+      while (const auto stop = filter.next_stop({10.0 + t, 10.0 + t})) {
         const double begin = simulation.time();
-        feed.advance_to(*stop, pauses ? begin + share(random) * (*stop - begin) : kInf);
-        interrupted += feed.is_interrupted() ? 1 : 0;
-        EXPECT_LE(feed.target(), *stop);  // earlier if the hand is lost on the way
-        EXPECT_EQ(feed.target() > simulation.time(), feed.is_interrupted());
+        filter.advance_to(*stop, pauses ? begin + share(random) * (*stop - begin) : kInf);
+        interrupted += filter.is_interrupted() ? 1 : 0;
+        EXPECT_LE(filter.target(), *stop);  // earlier if the hand is lost on the way
+        EXPECT_EQ(filter.target() > simulation.time(), filter.is_interrupted());
       }
     };
     unsigned count = 0;
     for (const motion::PoseSample& sample : shaking_hand()) {
       const LocalTime now{10.0 + sample.t, 10.0 + sample.t};
       const Quaterniond q(sample.X.linear());
-      if (count % 7 == 0) feed.push_button(sample.t + 0.3 * kInterval, count % 70 != 63);
-      if (count % 7 == 0) feed.buttons_known(sample.t + 0.3 * kInterval, now);
-      feed.push_stylus({sample.t, sample.X.translation(), q}, RigidTransform::Identity(), now);
+      if (count % 7 == 0) filter.push_button(sample.t + 0.3 * kInterval, count % 70 != 63);
+      if (count % 7 == 0) filter.buttons_known(sample.t + 0.3 * kInterval, now);
+      filter.push_stylus({sample.t, sample.X.translation(), q}, RigidTransform::Identity(), now);
       if (++count % every == 0 || count == 200) commit(sample.t);
     }
     for (double t = 5.0; t < 6.0; t += pauses ? 0.1 * share(random) : 0.05) commit(t);
     commit(6.0);
     EXPECT_GT(simulation.time(), 5.9);
-    EXPECT_EQ(feed.reacquisition_counts(0).losses, 2u);
+    EXPECT_EQ(filter.reacquisition_counts(0).losses, 2u);
     ends.push_back(simulation.save());
   }
   EXPECT_GT(interrupted, 500);
@@ -279,17 +282,17 @@ std::vector<RawSample> rubbish(unsigned seed, int count) {
   return samples;
 }
 
-TEST(Feed, NothingThatIsNotFiniteReachesTheSimulationAndTheGateCountsAsAlone) {
+TEST(InputFilter, NothingThatIsNotFiniteReachesTheSimulationAndTheGateCountsAsAlone) {
   for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
     simulation::Simulation simulation = make_simulation();
     const InputSettings settings;
-    Feed feed(simulation, settings);
+    InputFilter filter(simulation, settings);
     SampleGate gate(settings, simulation.settings().dropout_after);
-    feed.push_button(0.0, true);
+    filter.push_button(0.0, true);
     double t = 0.0;
     for (const RawSample& sample : rubbish(seed, 500)) {
-      EXPECT_EQ(feed.push_stylus(sample, RigidTransform::Identity(), {t, t}), gate.offer(sample));
-      feed.advance_to(t);
+      EXPECT_EQ(filter.push_stylus(sample, RigidTransform::Identity(), {t, t}), gate.offer(sample));
+      filter.advance_to(t);
       t += kInterval;
       for (const bodies::BodyState& object : simulation.objects()) {
         ASSERT_TRUE(object.X_WO.matrix().allFinite());
@@ -297,7 +300,7 @@ TEST(Feed, NothingThatIsNotFiniteReachesTheSimulationAndTheGateCountsAsAlone) {
       }
       ASSERT_TRUE(simulation.tool().X_WE.matrix().allFinite());
     }
-    const GateCounts &in_feed = feed.gate_counts(0), &alone = gate.counts();
+    const GateCounts &in_feed = filter.gate_counts(0), &alone = gate.counts();
     EXPECT_EQ(in_feed.accepted, alone.accepted);
     EXPECT_EQ(in_feed.relocations, alone.relocations);
     EXPECT_EQ(in_feed.dropouts, alone.dropouts);
@@ -308,5 +311,39 @@ TEST(Feed, NothingThatIsNotFiniteReachesTheSimulationAndTheGateCountsAsAlone) {
   }
 }
 
+TEST(InputFilter, AHandThatDoesNotExistIsRefusedByName) {
+  simulation::Simulation simulation = make_simulation();
+  InputFilter filter(simulation, {});
+  const RigidTransform here = RigidTransform::Identity();
+  const std::vector<std::function<void()>> calls = {
+      [&] {
+        filter.push_stylus(motion::PoseSample{0.0, here}, 2);
+      },
+      [&] {
+        filter.push_stylus(RawSample{}, here, {0.0, 0.0}, 2);
+      },
+      [&] { filter.push_edge(0.0, motion::ButtonEdge::grasp, 2); },
+      [&] { filter.push_external_wrench({}, 2); },
+      [&] {
+        filter.buttons_known(0.0, {0.0, 0.0}, 2);
+      },
+      [&] {
+        filter.report_arrival({0.0, 0.0}, 2);
+      },
+      [&] { filter.restart_gate(2); },
+      [&] { filter.gate_counts(2); },
+      [&] { filter.reacquisition_counts(2); },
+      [&] { filter.tracker_moves(2); },
+  };
+  for (const auto& call : calls) {
+    try {
+      call();
+      FAIL();
+    } catch (const validation::InputError& e) {
+      EXPECT_STREQ(e.what(), "hand: invalid value '2': expected an integer between 0 and 1");
+    }
+  }
+}
+
 }  // namespace
-}  // namespace spring_workbench::hand_input::feed_test
+}  // namespace spring_workbench::hand_input::input_filter_test

@@ -8,7 +8,7 @@
 namespace spring_workbench::benchmark {
 
 /// Limit cases of contact between boxes: the hand presses the held box against others, shifts it along them, and rests.
-enum class ContactExtreme {
+enum class ContactLimitCase {
   stack_of_ten,          ///< 1 kg each; the held box is put on the other nine
   light_on_heavy,        ///< 1 g, held, on 1 kg
   heavy_on_light,        ///< 1 kg, held, on 1 g
@@ -18,12 +18,12 @@ enum class ContactExtreme {
   grasped_touching,      ///< between bench, wall and a neighbour; pressed at the wall, shifted along it and lifted
   grasped_under_another  ///< the same with a fourth box on top
 };
-const std::vector<ContactExtreme>& contact_extremes();
-std::string name_of(ContactExtreme extreme);
+const std::vector<ContactLimitCase>& contact_limit_cases();
+std::string name_of(ContactLimitCase limit_case);
 
 /// One run through Simulation as used by applications: samples in, poses out.
-struct ExtremeCell {
-  ContactExtreme extreme = ContactExtreme::stack_of_ten;
+struct LimitCaseCell {
+  ContactLimitCase limit_case = ContactLimitCase::stack_of_ten;
   scene::ContactMode contact = scene::ContactMode::stop;
   double stiffness = 1e3;  ///< of stretch and bend [N/m]; torsion: a hundredth of it [N·m/rad]
   double step = 0.02;      ///< [s]; the hand is sampled at 50 Hz, or once per step if that is longer
@@ -31,7 +31,7 @@ struct ExtremeCell {
 };
 
 /// Result of a run, evaluated at every sample of the hand.
-struct ExtremeOutcome {
+struct LimitCaseOutcome {
   bool finite = true;        ///< whether poses and twists of all objects were finite
   bool bounded = true;       ///< whether every object stayed within 0.5 m of its start; the hand moves 0.1 m
   double penetration = 0.0;  ///< largest penetration of an object into another or the bench [m]
@@ -39,15 +39,15 @@ struct ExtremeOutcome {
   /// that returns to the hand, divided by the weights plus the largest sum of contact forces: the equivalent depth [m].
   double energy_gained = 0.0;
   double pushed = 0.0;     ///< largest displacement of an object that is not held [m]
-  int refused = 0;         ///< steps rejected as not finite or impossible
+  int rejected = 0;        ///< steps rejected as not finite or impossible
   int steps_blocked = 0;   ///< steps in which contact did not allow the held box to move
   int steps_unsolved = 0;  ///< substeps in which a contact among movable objects broke its law
   bool stays_out() const { return penetration <= 1e-4; }
   bool gains_nothing() const { return energy_gained <= 3e-6; }
   bool held() const {
-    return finite && bounded && stays_out() && gains_nothing() && refused + steps_blocked + steps_unsolved == 0;
+    return finite && bounded && stays_out() && gains_nothing() && rejected + steps_blocked + steps_unsolved == 0;
   }
 };
-ExtremeOutcome run(const ExtremeCell& cell);
+LimitCaseOutcome run(const LimitCaseCell& cell);
 
 }  // namespace spring_workbench::benchmark

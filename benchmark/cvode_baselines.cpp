@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmark/peers.h"
+#include "benchmark/baselines.h"
 #include "benchmark/scene_solver.h"
 
 namespace spring_workbench::benchmark {
@@ -39,11 +39,11 @@ class Cvode : public Method {
 
 }  // namespace
 
-std::vector<MethodPtr> cvode_peers() {
-  std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<Cvode>(SceneCoordinates::world));
-  peers.push_back(std::make_unique<Cvode>(SceneCoordinates::deflection));
-  return peers;
+std::vector<MethodPtr> cvode_baselines() {
+  std::vector<MethodPtr> baselines;
+  baselines.push_back(std::make_unique<Cvode>(SceneCoordinates::world));
+  baselines.push_back(std::make_unique<Cvode>(SceneCoordinates::deflection));
+  return baselines;
 }
 
 }  // namespace spring_workbench::benchmark

@@ -1,5 +1,5 @@
+#include "benchmark/baselines.h"
 #include "benchmark/held_body.h"
-#include "benchmark/peers.h"
 #include "benchmark/single_spring.h"
 #include "benchmark/stepping_loop.h"
 #include "spring_workbench/math/so3.h"
@@ -131,11 +131,11 @@ class RungeKutta4 : public Method {
 
 }  // namespace
 
-std::vector<MethodPtr> hand_written_peers() {
-  std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<SemiImplicitEuler>());
-  peers.push_back(std::make_unique<RungeKutta4>());
-  return peers;
+std::vector<MethodPtr> hand_written_baselines() {
+  std::vector<MethodPtr> baselines;
+  baselines.push_back(std::make_unique<SemiImplicitEuler>());
+  baselines.push_back(std::make_unique<RungeKutta4>());
+  return baselines;
 }
 
 }  // namespace spring_workbench::benchmark

@@ -1,4 +1,4 @@
-#include "benchmark/peers.h"
+#include "benchmark/baselines.h"
 
 #include <gtest/gtest.h>
 
@@ -16,11 +16,11 @@
 #include "benchmark/solver_run.h"
 #include "benchmark/stepping_loop.h"
 
-namespace spring_workbench::benchmark::peers_test {
+namespace spring_workbench::benchmark::baselines_test {
 namespace {
 
-const Peers& peers() {
-  static const Peers instance = all_peers();
+const Baselines& baselines() {
+  static const Baselines instance = all_baselines();
   return instance;
 }
 
@@ -31,25 +31,25 @@ double error_at(const Method& method, const Scenario& scene, int steps_per_inter
   return run.finite ? output_error(scene, reference_solution(scene), run.outputs) : 1e300;
 }
 
-TEST(Peers, EveryEngineIsFoundOrNamedAsNotFoundAndTheSolversAreThere) {
+TEST(Baselines, EveryEngineIsFoundOrNamedAsNotFoundAndTheSolversAreThere) {
   std::size_t named = 0;
-  for (const std::vector<std::string>* names : {&peers().found, &peers().not_found}) {
+  for (const std::vector<std::string>* names : {&baselines().found, &baselines().not_found}) {
     for (const std::string& name : *names) named += name.find("implicitfast") == std::string::npos ? 1 : 0;
   }
   EXPECT_EQ(named, 5U);
-  EXPECT_GE(peers().methods.size(), 2U + 2U + 9U + peers().found.size() - 1U);
+  EXPECT_GE(baselines().methods.size(), 2U + 2U + 9U + baselines().found.size() - 1U);
 }
 
-TEST(Peers, NamesAreUnique) {
-  for (const MethodPtr& a : peers().methods) {
-    for (const MethodPtr& b : peers().methods) EXPECT_EQ(a->name() == b->name(), a.get() == b.get());
+TEST(Baselines, NamesAreUnique) {
+  for (const MethodPtr& a : baselines().methods) {
+    for (const MethodPtr& b : baselines().methods) EXPECT_EQ(a->name() == b->name(), a.get() == b.get());
   }
 }
 
-TEST(Peers, EachFixedStepPeerConvergesToTheSceneWhoseLawItHasWithItsOrder) {
+TEST(Baselines, EachFixedStepBaselineConvergesToTheSceneWhoseLawItHasWithItsOrder) {
   std::size_t runs = 0;
   for (const Scenario& scene : {stretch_scene(1e3), torsion_scene(10.0), six_dof_scene(1.0)}) {
-    for (const MethodPtr& method : peers().methods) {
+    for (const MethodPtr& method : baselines().methods) {
       if (method->knob() != Method::Knob::step || !method->has_scene_law(scene) || is_weld(*method)) continue;
       const bool runge_kutta = method->name().find("rk4") != std::string::npos;
       const bool engine = method->name().find("mujoco") == 0;
@@ -63,16 +63,16 @@ TEST(Peers, EachFixedStepPeerConvergesToTheSceneWhoseLawItHasWithItsOrder) {
   }
   // The hand-written ones, solver_rk4 and solver_implicit_euler in three scenes, each engine at least in A and B;
   // SUNDIALS is none.
-  EXPECT_GE(runs, 3U * 4U + 2U * (peers().found.size() - 1U));
+  EXPECT_GE(runs, 3U * 4U + 2U * (baselines().found.size() - 1U));
 }
 
-TEST(Peers, OtherRotationParametrisationsAgreeWithTheSceneWhereTheSpringIsStiff) {
+TEST(Baselines, OtherRotationParametrisationsAgreeWithTheSceneWhereTheSpringIsStiff) {
   // The deflection is a hundredth of a radian, and parametrisations differ by its square. Bullet's constraint damps the
   // velocities of the two centres instead of that of the grip, which is a different law at any stiffness.
-  if (peers().found.size() == 1) GTEST_SKIP() << "no engine was found";
+  if (baselines().found.size() == 1) GTEST_SKIP() << "no engine was found";
   const Scenario scene = six_dof_scene(100.0);
   const ReferenceSolution reference = reference_solution(scene);
-  for (const MethodPtr& method : peers().methods) {
+  for (const MethodPtr& method : baselines().methods) {
     if (method->has_scene_law(scene) || is_weld(*method)) continue;
     const ReferenceSolution own = own_solution(*method, scene, 128, 60.0);
     ASSERT_FALSE(own.outputs.empty()) << method->name();
@@ -82,9 +82,9 @@ TEST(Peers, OtherRotationParametrisationsAgreeWithTheSceneWhereTheSpringIsStiff)
   }
 }
 
-TEST(Peers, GeneralSolversAreAsGoodAsTheirToleranceOverTheHandsMotionHoweverItIsKnown) {
-  std::vector<MethodPtr> methods = cvode_peers();
-  for (MethodPtr& method : solver_peers()) methods.push_back(std::move(method));
+TEST(Baselines, GeneralSolversAreAsGoodAsTheirToleranceOverTheHandsMotionHoweverItIsKnown) {
+  std::vector<MethodPtr> methods = cvode_baselines();
+  for (MethodPtr& method : solver_baselines()) methods.push_back(std::move(method));
   std::size_t runs = 0;
   for (const Scenario& scene : {stretch_scene(1e4), torsion_scene(1e2), six_dof_scene(1.0), six_dof_scene(1e4),
                                 with_sampled_hand(six_dof_scene(1.0)), with_sampled_hand(torsion_scene(1e2))}) {
@@ -181,7 +181,7 @@ TEST(SteppingLoop, LongStepsAreInterpolatedToTheirOrder) {
   for (int i = 0; i < 12; ++i) values.push_back(quintic(i));
   for (double t = 0.0; t <= 11.0; t += 0.13) EXPECT_LT((between_steps(values, t) - quintic(t)).norm(), 1e-7) << t;
   const Scenario scene = stretch_scene(1e2);
-  for (const MethodPtr& method : hand_written_peers()) {
+  for (const MethodPtr& method : hand_written_baselines()) {
     if (method->name() != "hand_rk4") continue;
     const ReferenceSolution reference = reference_solution(scene);
     const auto error = [&](double outputs) {
@@ -192,22 +192,23 @@ TEST(SteppingLoop, LongStepsAreInterpolatedToTheirOrder) {
   }
 }
 
-TEST(Peers, MujocoHasItsFastImplicitModeSince233AndItStepsAsEulerWhereOnlyJointsAreDamped) {
+TEST(Baselines, MujocoHasItsFastImplicitModeSince233AndItStepsAsEulerWhereOnlyJointsAreDamped) {
   std::array<int, 3> version{};
-  for (const std::string& found : peers().found) {
+  for (const std::string& found : baselines().found) {
     std::sscanf(found.c_str(), "MuJoCo %d.%d.%d", &version[0], &version[1], &version[2]);
   }
   if (version == std::array<int, 3>{}) GTEST_SKIP() << "MuJoCo was not found";
   const auto is_fast = [](const std::string& name) { return name == "mujoco_joints_implicitfast"; };
   const Method *euler = nullptr, *fast = nullptr;
-  for (const MethodPtr& method : peers().methods) {
+  for (const MethodPtr& method : baselines().methods) {
     if (method->name() == "mujoco_joints_euler") euler = method.get();
     if (is_fast(method->name())) fast = method.get();
   }
   const bool has_fast = version >= std::array<int, 3>{2, 3, 3};
   ASSERT_EQ(fast != nullptr, has_fast);
-  EXPECT_EQ(std::count_if(peers().drags.begin(), peers().drags.end(), [&](const auto& d) { return is_fast(d.name); }),
-            has_fast ? 1 : 0);
+  EXPECT_EQ(
+      std::count_if(baselines().drags.begin(), baselines().drags.end(), [&](const auto& d) { return is_fast(d.name); }),
+      has_fast ? 1 : 0);
   if (!has_fast) return;
   // Both take the joints' damping implicitly, and leave out how Coriolis forces change with velocity.
   for (const Scenario& scene : {stretch_scene(1e4), torsion_scene(1.0), six_dof_scene(1.0)}) {
@@ -217,14 +218,14 @@ TEST(Peers, MujocoHasItsFastImplicitModeSince233AndItStepsAsEulerWhereOnlyJoints
   }
 }
 
-TEST(Peers, AWeldToAMocapBodyLagsByTheDampersShareOfTheHandsSpeed) {
+TEST(Baselines, AWeldToAMocapBodyLagsByTheDampersShareOfTheHandsSpeed) {
   const Scenario scene = stretch_scene(1e4);
   const double Omega = scalar_hand(scene, 0.0).rate / hand_amplitude(scene);
   const std::complex<double> i(0.0, 1.0);
   const std::complex<double> compliance =
       1.0 / (scene.stiffness[2] - scene.mass * Omega * Omega + i * Omega * scene.damping[2]);
   const double lag = std::abs(compliance * scene.damping[2] * scalar_hand(scene, 0.0).rate);
-  for (const MethodPtr& method : peers().methods) {
+  for (const MethodPtr& method : baselines().methods) {
     if (!is_weld(*method)) continue;
     EXPECT_NEAR(error_at(*method, scene, 64), lag, 0.01 * lag);
   }
@@ -273,4 +274,4 @@ TEST(Method, StepsDivideTheOutputIntervalAndAreNeverLongerThanAsked) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark::peers_test
+}  // namespace spring_workbench::benchmark::baselines_test

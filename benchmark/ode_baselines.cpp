@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "benchmark/baselines.h"
 #include "benchmark/held_body.h"
-#include "benchmark/peers.h"
 #include "benchmark/stepping_loop.h"
 #include "spring_workbench/math/so3.h"
 
@@ -199,10 +199,10 @@ std::vector<RodEngine> ode_rods() {
   return {{"ode_explicit", RodForce::When::start_of_step, make}, {"ode_stable", RodForce::When::end_of_step, make}};
 }
 
-std::vector<MethodPtr> ode_peers() {
-  std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<OdeErpCfm>());
-  return peers;
+std::vector<MethodPtr> ode_baselines() {
+  std::vector<MethodPtr> baselines;
+  baselines.push_back(std::make_unique<OdeErpCfm>());
+  return baselines;
 }
 
 }  // namespace spring_workbench::benchmark

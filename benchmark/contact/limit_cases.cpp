@@ -1,4 +1,4 @@
-#include "benchmark/contact/extremes.h"
+#include "benchmark/contact/limit_cases.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,31 +64,31 @@ Setting under_another() {
   return s;
 }
 
-Setting setting_of(ContactExtreme extreme) {
-  switch (extreme) {
-    case ContactExtreme::stack_of_ten:
+Setting setting_of(ContactLimitCase limit_case) {
+  switch (limit_case) {
+    case ContactLimitCase::stack_of_ten:
       return stack();
-    case ContactExtreme::light_on_heavy:
+    case ContactLimitCase::light_on_heavy:
       return one_on_other(1e-3, 1.0);
-    case ContactExtreme::heavy_on_light:
+    case ContactLimitCase::heavy_on_light:
       return one_on_other(1.0, 1e-3);
-    case ContactExtreme::light_at_wall:
+    case ContactLimitCase::light_at_wall:
       return at_wall(1e-6);
-    case ContactExtreme::heavy_at_wall:
+    case ContactLimitCase::heavy_at_wall:
       return at_wall(1e6);
-    case ContactExtreme::massless_at_wall:
+    case ContactLimitCase::massless_at_wall:
       return at_wall(0.0);
-    case ContactExtreme::grasped_touching:
+    case ContactLimitCase::grasped_touching:
       return among_others();
-    case ContactExtreme::grasped_under_another:
+    case ContactLimitCase::grasped_under_another:
       return under_another();
   }
-  throw std::logic_error("an extreme without a scene");
+  throw std::logic_error("an limit_case without a scene");
 }
 
-scene::Scene scene_of(const ExtremeCell& cell, const Setting& setting) {
+scene::Scene scene_of(const LimitCaseCell& cell, const Setting& setting) {
   scene::Scene scene;
-  scene.name = scene.path = name_of(cell.extreme);
+  scene.name = scene.path = name_of(cell.limit_case);
   scene.contact = cell.contact;
   scene.gravity = g;
   scene.bench_material.friction = 0.5;
@@ -96,7 +96,7 @@ scene::Scene scene_of(const ExtremeCell& cell, const Setting& setting) {
   return scene;
 }
 
-simulation::SimulationSettings settings_of(const ExtremeCell& cell) {
+simulation::SimulationSettings settings_of(const LimitCaseCell& cell) {
   simulation::SimulationSettings settings;
   settings.fork.stiffness = {cell.stiffness, cell.stiffness, 0.01 * cell.stiffness};
   settings.dynamics.step = cell.step;
@@ -112,7 +112,7 @@ double minimum_jerk(double u) {
 /// The hand, with the fork pointing down, initially above the held box.
 class Hand {
  public:
-  Hand(const ExtremeCell& cell, const Setting& setting, double length)
+  Hand(const LimitCaseCell& cell, const Setting& setting, double length)
       : pressed_(setting.pressed), shifted_(setting.shifted) {
     std::mt19937 random(cell.seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -140,7 +140,7 @@ class Watch {
   }
 
   /// Returns false if there is no point in continuing.
-  bool look(bool at_rest, ExtremeOutcome& outcome) {
+  bool look(bool at_rest, LimitCaseOutcome& outcome) {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const bodies::BodyState& o = simulation_.objects()[i];
       outcome.finite =
@@ -208,38 +208,38 @@ class Watch {
 
 }  // namespace
 
-const std::vector<ContactExtreme>& contact_extremes() {
-  static const std::vector<ContactExtreme> all{ContactExtreme::stack_of_ten,     ContactExtreme::light_on_heavy,
-                                               ContactExtreme::heavy_on_light,   ContactExtreme::light_at_wall,
-                                               ContactExtreme::heavy_at_wall,    ContactExtreme::massless_at_wall,
-                                               ContactExtreme::grasped_touching, ContactExtreme::grasped_under_another};
+const std::vector<ContactLimitCase>& contact_limit_cases() {
+  static const std::vector<ContactLimitCase> all{
+      ContactLimitCase::stack_of_ten,     ContactLimitCase::light_on_heavy,       ContactLimitCase::heavy_on_light,
+      ContactLimitCase::light_at_wall,    ContactLimitCase::heavy_at_wall,        ContactLimitCase::massless_at_wall,
+      ContactLimitCase::grasped_touching, ContactLimitCase::grasped_under_another};
   return all;
 }
 
-std::string name_of(ContactExtreme extreme) {
-  switch (extreme) {
-    case ContactExtreme::stack_of_ten:
+std::string name_of(ContactLimitCase limit_case) {
+  switch (limit_case) {
+    case ContactLimitCase::stack_of_ten:
       return "stack of ten";
-    case ContactExtreme::light_on_heavy:
+    case ContactLimitCase::light_on_heavy:
       return "1 g held on 1 kg";
-    case ContactExtreme::heavy_on_light:
+    case ContactLimitCase::heavy_on_light:
       return "1 kg held on 1 g";
-    case ContactExtreme::light_at_wall:
+    case ContactLimitCase::light_at_wall:
       return "1e-6 kg at a wall";
-    case ContactExtreme::heavy_at_wall:
+    case ContactLimitCase::heavy_at_wall:
       return "1e6 kg at a wall";
-    case ContactExtreme::massless_at_wall:
+    case ContactLimitCase::massless_at_wall:
       return "massless at a wall";
-    case ContactExtreme::grasped_touching:
+    case ContactLimitCase::grasped_touching:
       return "grasped while it touches";
-    case ContactExtreme::grasped_under_another:
+    case ContactLimitCase::grasped_under_another:
       return "grasped under another";
   }
-  throw std::logic_error("an extreme without a name");
+  throw std::logic_error("an limit_case without a name");
 }
 
-ExtremeOutcome run(const ExtremeCell& cell) {
-  const Setting setting = setting_of(cell.extreme);
+LimitCaseOutcome run(const LimitCaseCell& cell) {
+  const Setting setting = setting_of(cell.limit_case);
   const simulation::SimulationSettings settings = settings_of(cell);
   simulation::Simulation simulation(scene_of(cell, setting), settings);
   const Hand hand(cell, setting, settings.fork.length);
@@ -247,10 +247,10 @@ ExtremeOutcome run(const ExtremeCell& cell) {
   const int samples = static_cast<int>(std::lround(end / interval));
   for (int i = 0; i <= samples; ++i) simulation.push_stylus(hand.at(interval * i));
   Watch watch(simulation);
-  ExtremeOutcome outcome;
+  LimitCaseOutcome outcome;
   for (int i = 1; i <= samples; ++i) {
     const simulation::AdvanceReport report = simulation.advance_to(interval * i);
-    outcome.refused += report.steps_rejected;
+    outcome.rejected += report.steps_rejected;
     outcome.steps_blocked += report.steps_blocked;
     outcome.steps_unsolved += report.steps_unsolved;
     if (!watch.look(interval * i > pressing + shifting + 1.5 * interval, outcome)) break;

@@ -1,4 +1,4 @@
-#include "benchmark/verdicts.h"
+#include "benchmark/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace spring_workbench::benchmark::verdicts_test {
+namespace spring_workbench::benchmark::checks_test {
 namespace {
 
 constexpr double kAmplitude = 0.15, kDeflection = 0.03;
@@ -33,20 +33,20 @@ void add_line(const std::string& method, double factor, double scale, std::vecto
   }
 }
 
-Verdict verdict_on(const Measurements& measured, const std::string& part, const std::string& more = "") {
-  for (const Verdict& v : verdicts(measured)) {
+Check check_on(const Measurements& measured, const std::string& part, const std::string& more = "") {
+  for (const Check& v : checks(measured)) {
     if (v.claim.find(part) != std::string::npos && v.claim.find(more) != std::string::npos) return v;
   }
-  throw std::runtime_error("no verdict on " + part + more);
+  throw std::runtime_error("no check on " + part + more);
 }
 
-Verdict::Result result_of(const Measurements& measured, const std::string& part, const std::string& more = "") {
-  return verdict_on(measured, part, more).result;
+Check::Result result_of(const Measurements& measured, const std::string& part, const std::string& more = "") {
+  return check_on(measured, part, more).result;
 }
 
-constexpr auto kPass = Verdict::Result::pass, kFail = Verdict::Result::fail, kNone = Verdict::Result::not_measured;
+constexpr auto kPass = Check::Result::pass, kFail = Check::Result::fail, kNone = Check::Result::not_measured;
 
-TEST(Verdicts, ARatioIsHeldFromItsTargetOnAndNotBelow) {
+TEST(Checks, ARatioIsHeldFromItsTargetOnAndNotBelow) {
   for (const auto& [factor, target] : {std::pair{1.0, 20.0}, std::pair{100.0, 50.0}, std::pair{1e4, 50.0}}) {
     for (const double share : {0.99, 1.01, 1.59, 1.61}) {
       for (const char* at : {"at 1e-06 of the amplitude", "at 0.001 of the largest deflection"}) {
@@ -54,28 +54,29 @@ TEST(Verdicts, ARatioIsHeldFromItsTargetOnAndNotBelow) {
         add_line("exponential", factor, 10.0, measured.scenes);
         add_line("ode_erp_cfm", factor, 10.0 * target * share, measured.scenes);
         add_line("hand_rk4", factor, 1.0, measured.scenes);  // no engine
-        const Verdict verdict = verdict_on(measured, at, "the best engine");
-        EXPECT_EQ(verdict.result, share > 1.0 ? kPass : kFail) << factor << ' ' << share;
-        const bool narrowly = verdict.measured.find("another run may miss it") != std::string::npos;
+        const Check check = check_on(measured, at, "the best engine");
+        EXPECT_EQ(check.result, share > 1.0 ? kPass : kFail) << factor << ' ' << share;
+        const bool narrowly = check.measured.find("another run may miss it") != std::string::npos;
         EXPECT_EQ(narrowly, share > 1.0 && share < 1.6) << factor << ' ' << share;
       }
     }
   }
 }
 
-TEST(Verdicts, EveryMethodThatIsNotOursIsAPeer) {
+TEST(Checks, EveryMethodThatIsNotOursIsABaseline) {
   for (const char* name : {"hand_rk4", "cvode_world", "solver_dop853", "ode_erp_cfm"}) {
     for (const double time : {9.9, 16.1}) {
       Measurements measured;
       add_line("exponential", 1.0, 10.0, measured.scenes);
       add_line("bullet_explicit", 1.0, 1e4, measured.scenes);
       add_line(name, 1.0, time, measured.scenes);
-      EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), time > 10.0 ? kPass : kFail) << name;
+      EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), time > 10.0 ? kPass : kFail)
+          << name;
     }
   }
 }
 
-TEST(Verdicts, CvodeInAnyFormIsTheBestOfThem) {
+TEST(Checks, CvodeInAnyFormIsTheBestOfThem) {
   Measurements measured;
   add_line("exponential", 100.0, 1.0, measured.scenes);
   add_line("cvode_world", 100.0, 100.0, measured.scenes);
@@ -84,7 +85,7 @@ TEST(Verdicts, CvodeInAnyFormIsTheBestOfThem) {
   EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "CVODE in any form"), kFail);
 }
 
-TEST(Verdicts, EnginesAndCvodeAreJudgedInEverySceneAndOnRods) {
+TEST(Checks, EnginesAndCvodeAreJudgedInEverySceneAndOnRods) {
   for (const char* scene : {"A", "B", "C"}) {
     Measurements measured;
     add_line("exponential", 100.0, 1.0, measured.scenes);
@@ -103,7 +104,7 @@ TEST(Verdicts, EnginesAndCvodeAreJudgedInEverySceneAndOnRods) {
   EXPECT_EQ(result_of(measured, "Rod stiff_6dof", "CVODE in any form"), kPass);
 }
 
-TEST(Verdicts, WithTheHandAsAFunctionDop853AndRadauAreJudgedOnSoftForks) {
+TEST(Checks, WithTheHandAsAFunctionDop853AndRadauAreJudgedOnSoftForks) {
   for (const auto& [factor, hand] :
        {std::pair{1.0, "function"}, std::pair{100.0, "function"}, std::pair{1.0, "samples"}}) {
     Measurements measured;
@@ -113,38 +114,38 @@ TEST(Verdicts, WithTheHandAsAFunctionDop853AndRadauAreJudgedOnSoftForks) {
     add_line("solver_dop853", factor, 9.0, measured.scenes);
     for (ErrorRow& row : measured.scenes) row.hand = hand;
     if (factor == 1.0 && std::string(hand) == "function") {
-      const Verdict verdict = verdict_on(measured, "at 1e-09 of the amplitude", "DOP853 and Radau IIA");
-      EXPECT_EQ(verdict.result, kFail);
-      EXPECT_EQ(verdict.peer, "solver_dop853");
+      const Check check = check_on(measured, "at 1e-09 of the amplitude", "DOP853 and Radau IIA");
+      EXPECT_EQ(check.result, kFail);
+      EXPECT_EQ(check.baseline, "solver_dop853");
     } else {
-      EXPECT_THROW(verdict_on(measured, "DOP853 and Radau IIA"), std::runtime_error);
+      EXPECT_THROW(check_on(measured, "DOP853 and Radau IIA"), std::runtime_error);
     }
   }
 }
 
-TEST(Verdicts, OfSeveralThatAloneReachAnErrorTheFastestIsNamed) {
+TEST(Checks, OfSeveralThatAloneReachAnErrorTheFastestIsNamed) {
   Measurements measured;
   add_line("exponential", 1.0, 10.0, measured.scenes);
   for (ErrorRow& row : measured.scenes) row.finite = row.error_over_hand_amplitude > 0.9e-8;
   add_line("hand_rk4", 1.0, 100.0, measured.scenes);
   add_line("cvode_world", 1.0, 50.0, measured.scenes);
-  const Verdict verdict = verdict_on(measured, "at 1e-09 of the amplitude", "every peer");
-  EXPECT_EQ(verdict.peer, "cvode_world") << verdict.measured;
+  const Check check = check_on(measured, "at 1e-09 of the amplitude", "every baseline");
+  EXPECT_EQ(check.baseline, "cvode_world") << check.measured;
 }
 
-TEST(Verdicts, ItIsToldHowManyComparisonsRestOnRunTimesBetweenSettings) {
+TEST(Checks, ItIsToldHowManyComparisonsRestOnRunTimesBetweenSettings) {
   // Ours reaches 1e-6 between two settings, and the other at a setting that costs 1.2 times as much: ours is even, but
   // its next measured run is the slower.
   for (const double other : {12.0, 30.0}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes, 2e4);
     add_line("hand_rk4", 1.0, other, measured.scenes, 1.0);
-    const std::string told = verdict_on(measured, "from measured settings alone").measured;
+    const std::string told = check_on(measured, "from measured settings alone").measured;
     EXPECT_EQ(told.find("worse for ours 0") == std::string::npos, other == 12.0) << told;
   }
 }
 
-TEST(Verdicts, AsMuchIsAskedWithALightLoadAsWithAStifferFork) {
+TEST(Checks, AsMuchIsAskedWithALightLoadAsWithAStifferFork) {
   for (const auto& [factor, mass, result] :
        {std::tuple{1.0, 5.0, kPass}, std::tuple{1.0, 0.04, kFail}, std::tuple{100.0, 5.0, kFail}}) {
     Measurements measured;
@@ -155,45 +156,44 @@ TEST(Verdicts, AsMuchIsAskedWithALightLoadAsWithAStifferFork) {
   }
 }
 
-TEST(Verdicts, OnlyTheDefaultIntegratorIsOurs) {
+TEST(Checks, OnlyTheDefaultIntegratorIsOurs) {
   Measurements measured;
   add_line("exponential", 1.0, 10.0, measured.scenes);
   add_line("rk4", 1.0, 0.1, measured.scenes);
   for (ErrorRow& row : measured.scenes) row.ours = true;
   add_line("hand_rk4", 1.0, 5.0, measured.scenes);
-  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), kFail);
+  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), kFail);
 }
 
-TEST(Verdicts, APeerWhoseLineBeginsBelowTheTargetIsComparedAtItsFirstError) {
+TEST(Checks, ABaselineWhoseLineBeginsBelowTheTargetIsComparedAtItsFirstError) {
   // Its cheapest run is 1e4 times better than required, so ours is compared at that error, which takes ten times as
   // long.
   for (const double time : {90.0, 165.0}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
     add_line("hand_rk4", 1.0, time / 10.0, measured.scenes, 1e-4);
-    const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "every peer");
-    EXPECT_EQ(verdict.result, time > 100.0 ? kPass : kFail) << verdict.measured;
-    EXPECT_NE(verdict.measured.find("at 1e-10, since its line begins no earlier"), std::string::npos)
-        << verdict.measured;
-    EXPECT_EQ(verdict.peer, "hand_rk4");
-    EXPECT_NEAR(*verdict.error, 1e-10, 1e-16);
-    EXPECT_NEAR(*verdict.ratio, time / 100.0, 1e-9);
-    EXPECT_NEAR(*verdict.within, time / 10.0, 1e-9);  // no worse than the target, each at its own error
+    const Check check = check_on(measured, "at 1e-06 of the amplitude", "every baseline");
+    EXPECT_EQ(check.result, time > 100.0 ? kPass : kFail) << check.measured;
+    EXPECT_NE(check.measured.find("at 1e-10, since its line begins no earlier"), std::string::npos) << check.measured;
+    EXPECT_EQ(check.baseline, "hand_rk4");
+    EXPECT_NEAR(*check.error, 1e-10, 1e-16);
+    EXPECT_NEAR(*check.ratio, time / 100.0, 1e-9);
+    EXPECT_NEAR(*check.within, time / 10.0, 1e-9);  // no worse than the target, each at its own error
   }
 }
 
-TEST(Verdicts, WhereOursWasNotMeasuredThatFarDownItIsComparedAtTheLeastErrorThatItHas) {
+TEST(Checks, WhereOursWasNotMeasuredThatFarDownItIsComparedAtTheLeastErrorThatItHas) {
   // Ours ends at 1e-8, for 31.6 µs/s; the other begins at 1e-10.
   for (const double time : {30.0, 52.0}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
     for (ErrorRow& row : measured.scenes) row.finite = row.error_over_hand_amplitude > 0.9e-8;
     add_line("hand_rk4", 1.0, time / 10.0, measured.scenes, 1e-4);
-    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), time > 31.7 ? kPass : kFail);
+    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), time > 31.7 ? kPass : kFail);
   }
 }
 
-TEST(Verdicts, WhereTheTargetExceedsATenthOfTheDeflectionNothingIsJudged) {
+TEST(Checks, WhereTheTargetExceedsATenthOfTheDeflectionNothingIsJudged) {
   for (const auto& [deflection, judged] : {std::pair{1.4e-6, false}, std::pair{1.6e-6, true}}) {
     Measurements measured;
     add_line("exponential", 1e6, 1.0, measured.scenes);
@@ -202,25 +202,25 @@ TEST(Verdicts, WhereTheTargetExceedsATenthOfTheDeflectionNothingIsJudged) {
       row.largest_deflection = deflection;
       row.error_over_largest_deflection = row.error / deflection;
     }
-    const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "every peer");
-    EXPECT_EQ(verdict.result, judged ? kPass : kNone) << verdict.measured;
-    EXPECT_EQ(verdict.measured.find("not judged") == std::string::npos, judged);
-    EXPECT_EQ(result_of(measured, "at 0.001 of the largest deflection", "every peer"), kPass);
+    const Check check = check_on(measured, "at 1e-06 of the amplitude", "every baseline");
+    EXPECT_EQ(check.result, judged ? kPass : kNone) << check.measured;
+    EXPECT_EQ(check.measured.find("not judged") == std::string::npos, judged);
+    EXPECT_EQ(result_of(measured, "at 0.001 of the largest deflection", "every baseline"), kPass);
   }
 }
 
-TEST(Verdicts, ATargetBelowTwiceTheReferencesOwnErrorIsNotJudged) {
+TEST(Checks, ATargetBelowTwiceTheReferencesOwnErrorIsNotJudged) {
   for (const auto& [uncertainty, judged] : {std::pair{0.4e-9, true}, std::pair{0.6e-9, false}}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
     add_line("hand_rk4", 1.0, 1e4, measured.scenes);
     for (ErrorRow& row : measured.scenes) row.reference_uncertainty = uncertainty * kAmplitude;
-    EXPECT_EQ(result_of(measured, "at 1e-09 of the amplitude", "every peer"), judged ? kPass : kNone);
-    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), kPass);
+    EXPECT_EQ(result_of(measured, "at 1e-09 of the amplitude", "every baseline"), judged ? kPass : kNone);
+    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), kPass);
   }
 }
 
-TEST(Verdicts, WhoDoesNotArriveHasLostAndIfNobodyDoesNothingIsSaid) {
+TEST(Checks, WhoDoesNotArriveHasLostAndIfNobodyDoesNothingIsSaid) {
   const auto cut = [](std::vector<ErrorRow>& rows, const std::string& method) {
     for (ErrorRow& row : rows)
       row.finite = row.finite && (row.method != method || row.error_over_hand_amplitude > 1e-5);
@@ -229,15 +229,15 @@ TEST(Verdicts, WhoDoesNotArriveHasLostAndIfNobodyDoesNothingIsSaid) {
   add_line("exponential", 1.0, 10.0, measured.scenes);
   add_line("hand_rk4", 1.0, 1e4, measured.scenes);
   cut(measured.scenes, "hand_rk4");
-  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), kPass);
+  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), kPass);
   add_line("solver_dop853", 1.0, 1e4, measured.scenes);
   cut(measured.scenes, "exponential");
-  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), kFail);
+  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), kFail);
   cut(measured.scenes, "solver_dop853");
-  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), kNone);
+  EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), kNone);
 }
 
-TEST(Verdicts, APeerThatWasStoppedIsSlowerThanWhereItsLineEndsAndNoMoreIsClaimed) {
+TEST(Checks, ABaselineThatWasStoppedIsSlowerThanWhereItsLineEndsAndNoMoreIsClaimed) {
   // Stopped at 900 or 1,100 µs/s while still falling: only the second proves a ratio of 50 to our 20 µs/s.
   for (const double stopped : {900.0, 1100.0}) {
     for (const bool given_up : {true, false}) {
@@ -251,9 +251,9 @@ TEST(Verdicts, APeerThatWasStoppedIsSlowerThanWhereItsLineEndsAndNoMoreIsClaimed
       rows.back().wall_us_per_simulated_second = stopped;
       if (given_up) rows.back().finite = false;
       rows.back().given_up = given_up;
-      const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "the best engine");
-      EXPECT_EQ(verdict.result, stopped > 1000.0 ? kPass : kFail) << verdict.measured;
-      EXPECT_NE(verdict.measured.find("slower than"), std::string::npos) << verdict.measured;
+      const Check check = check_on(measured, "at 1e-06 of the amplitude", "the best engine");
+      EXPECT_EQ(check.result, stopped > 1000.0 ? kPass : kFail) << check.measured;
+      EXPECT_NE(check.measured.find("slower than"), std::string::npos) << check.measured;
       if (given_up) continue;
       // One setting without gain proves nothing; a curve that has levelled off does not reach the error.
       rows.push_back(rows.back());
@@ -265,7 +265,7 @@ TEST(Verdicts, APeerThatWasStoppedIsSlowerThanWhereItsLineEndsAndNoMoreIsClaimed
   }
 }
 
-TEST(Verdicts, ScenesMassesAndHandsAreNotMixed) {
+TEST(Checks, ScenesMassesAndHandsAreNotMixed) {
   for (const bool heavy : {false, true}) {
     Measurements measured;
     add_line("exponential", 100.0, 1.0, measured.scenes);
@@ -280,7 +280,7 @@ TEST(Verdicts, ScenesMassesAndHandsAreNotMixed) {
   }
 }
 
-TEST(Verdicts, BySamplesEveryErrorThatTheyAllowIsJudged) {
+TEST(Checks, BySamplesEveryErrorThatTheyAllowIsJudged) {
   for (const auto& [unknown, first] : {std::pair{1e-3, true}, std::pair{1e-5, false}}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes, 1e5);
@@ -295,25 +295,25 @@ TEST(Verdicts, BySamplesEveryErrorThatTheyAllowIsJudged) {
       if (row.method == "solver_dop853") row.wall_us_per_simulated_second = 1.0;
     }
     // At coarser errors its one point, where its line begins, is compared, too.
-    const Verdict verdict = verdict_on(measured, "at every error");
-    EXPECT_EQ(verdict.result, kFail) << verdict.measured;
-    EXPECT_EQ(verdict.measured.find("0.0001: ") == std::string::npos, first) << verdict.measured;
+    const Check check = check_on(measured, "at every error");
+    EXPECT_EQ(check.result, kFail) << check.measured;
+    EXPECT_EQ(check.measured.find("0.0001: ") == std::string::npos, first) << check.measured;
   }
 }
 
-TEST(Verdicts, FirstOfAllIsWhoLeadsByMoreThanRunTimesDifferBy) {
+TEST(Checks, FirstOfAllIsWhoLeadsByMoreThanRunTimesDifferBy) {
   for (const auto& [time, result] :
        {std::pair{9.9, kFail}, std::pair{10.1, kNone}, std::pair{15.9, kNone}, std::pair{16.1, kPass}}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
     add_line("hand_rk4", 1.0, time, measured.scenes);
     for (ErrorRow& row : measured.scenes) row.hand = "samples";
-    EXPECT_EQ(verdict_on(measured, "at 0.001 of the largest deflection").result, result) << time;
-    EXPECT_EQ(verdict_on(measured, "at every error").result, result) << time;
+    EXPECT_EQ(check_on(measured, "at 0.001 of the largest deflection").result, result) << time;
+    EXPECT_EQ(check_on(measured, "at every error").result, result) << time;
   }
 }
 
-TEST(Verdicts, WhereSamplesLeaveMoreThanATenthOfTheDeflectionIntegrationAloneIsJudged) {
+TEST(Checks, WhereSamplesLeaveMoreThanATenthOfTheDeflectionIntegrationAloneIsJudged) {
   for (const auto& [left, measured_as] :
        {std::pair{0.09, "of 2 lost at 0.1: "}, {0.11, "of 5 lost at 0.1: "}, {144.0, "of 5 lost at 0.1: "}}) {
     Measurements measured;
@@ -323,14 +323,14 @@ TEST(Verdicts, WhereSamplesLeaveMoreThanATenthOfTheDeflectionIntegrationAloneIsJ
       row.hand = "samples";
       row.hand_error = left * kDeflection;
     }
-    const Verdict verdict = verdict_on(measured, "at every error");
-    EXPECT_EQ(verdict.claim.find("integration alone (the samples leave ") == std::string::npos, left < 0.1);
-    EXPECT_EQ(verdict.result, kFail) << verdict.measured;
-    EXPECT_EQ(verdict.measured.rfind(measured_as, 0), 0U) << verdict.measured;
+    const Check check = check_on(measured, "at every error");
+    EXPECT_EQ(check.claim.find("integration alone (the samples leave ") == std::string::npos, left < 0.1);
+    EXPECT_EQ(check.result, kFail) << check.measured;
+    EXPECT_EQ(check.measured.rfind(measured_as, 0), 0U) << check.measured;
   }
 }
 
-TEST(Verdicts, HowMuchTheTwoRoundsDifferIsTold) {
+TEST(Checks, HowMuchTheTwoRoundsDifferIsTold) {
   Measurements measured;
   add_line("exponential", 1.0, 10.0, measured.scenes);
   const std::size_t rows = measured.scenes.size();
@@ -339,13 +339,13 @@ TEST(Verdicts, HowMuchTheTwoRoundsDifferIsTold) {
     add_round((i == 0 ? 4.0 : 1.25) * row.wall_us_per_simulated_second, row);
   }
   measured.scenes.emplace_back();  // measured once
-  const std::string told = verdict_on(measured, "the slower round over the faster").measured;
+  const std::string told = check_on(measured, "the slower round over the faster").measured;
   EXPECT_EQ(told.rfind("median 1.25; ", 0), 0U) << told;
   EXPECT_NE(told.find("most 4; more than 1.6 in "), std::string::npos) << told;
   EXPECT_NE(told.find(" % of " + std::to_string(rows)), std::string::npos) << told;
 }
 
-TEST(Verdicts, TheFasterRoundCountsWhicheverItIs) {
+TEST(Checks, TheFasterRoundCountsWhicheverItIs) {
   for (const double second : {2.0, 8.0}) {
     ErrorRow row;
     row.wall_us_per_simulated_second = 4.0;
@@ -355,7 +355,7 @@ TEST(Verdicts, TheFasterRoundCountsWhicheverItIs) {
   }
 }
 
-TEST(Verdicts, WhatIsFinerThanTheSamplesLeaveIsCalledAnErrorOfIntegrationAlone) {
+TEST(Checks, WhatIsFinerThanTheSamplesLeaveIsCalledAnErrorOfIntegrationAlone) {
   for (const auto& [left, alone] : {std::pair{0.9e-3, false}, std::pair{1.1e-3, true}, std::pair{0.0, false}}) {
     for (const char* hand : {"samples", "function"}) {
       Measurements measured;
@@ -366,14 +366,14 @@ TEST(Verdicts, WhatIsFinerThanTheSamplesLeaveIsCalledAnErrorOfIntegrationAlone) 
         row.hand_error = left * kDeflection;
       }
       const bool is_alone = alone && measured.scenes[0].hand == "samples";
-      const Verdict verdict = verdict_on(measured, "at 0.001 of the largest deflection", "every peer");
-      EXPECT_EQ(verdict.claim.find("error of integration alone") != std::string::npos, is_alone) << verdict.claim;
-      EXPECT_EQ(verdict.result, kPass);
+      const Check check = check_on(measured, "at 0.001 of the largest deflection", "every baseline");
+      EXPECT_EQ(check.claim.find("error of integration alone") != std::string::npos, is_alone) << check.claim;
+      EXPECT_EQ(check.result, kPass);
     }
   }
 }
 
-TEST(Verdicts, APeerWhoseOwnLimitIsNotKnownWellEnoughIsNotCompared) {
+TEST(Checks, ABaselineWhoseOwnLimitIsNotKnownWellEnoughIsNotCompared) {
   for (const auto& [uncertainty, found, told] :
        {std::tuple{0.4e-6, true, true}, std::tuple{0.6e-6, true, false}, std::tuple{0.0, false, false}}) {
     Measurements measured;
@@ -386,15 +386,15 @@ TEST(Verdicts, APeerWhoseOwnLimitIsNotKnownWellEnoughIsNotCompared) {
       row.finite = found;
       if (!found) row.largest_deflection = 0.0;
     }
-    const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "the best engine");
-    EXPECT_EQ(verdict.result, told ? kPass : kNone) << verdict.measured;
+    const Check check = check_on(measured, "at 1e-06 of the amplitude", "the best engine");
+    EXPECT_EQ(check.result, told ? kPass : kNone) << check.measured;
     // Next to one that is known, it is excluded.
     add_line("ode_erp_cfm", 1.0, 100.0, measured.scenes);
     EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "the best engine"), kFail);
   }
 }
 
-TEST(Verdicts, WhoIsNotComparedIsNamed) {
+TEST(Checks, WhoIsNotComparedIsNamed) {
   Measurements measured;
   add_line("exponential", 1.0, 10.0, measured.scenes);
   add_line("bullet_spring2", 1.0, 1e3, measured.scenes);
@@ -403,12 +403,12 @@ TEST(Verdicts, WhoIsNotComparedIsNamed) {
     row.reference_uncertainty = row.ours ? 0.0 : 0.6e-6 * kAmplitude;
   }
   add_line("ode_erp_cfm", 1.0, 1e3, measured.scenes);
-  const auto told = [&](const std::string& at) { return verdict_on(measured, at, "the best engine").measured; };
+  const auto told = [&](const std::string& at) { return check_on(measured, at, "the best engine").measured; };
   EXPECT_NE(told("at 1e-06 of the amplitude").find("known well enough: bullet_spring2"), std::string::npos);
   EXPECT_EQ(told("at 0.001 of the largest deflection").find("not compared"), std::string::npos);
 }
 
-TEST(Verdicts, WhoIsNotComparedAtEveryErrorIsNamed) {
+TEST(Checks, WhoIsNotComparedAtEveryErrorIsNamed) {
   Measurements measured;
   add_line("exponential", 1.0, 10.0, measured.scenes);
   add_line("hand_rk4", 1.0, 100.0, measured.scenes);
@@ -418,12 +418,12 @@ TEST(Verdicts, WhoIsNotComparedAtEveryErrorIsNamed) {
     row.own_reference = row.method == "bullet_spring2";
     row.reference_uncertainty = row.own_reference ? kDeflection : 0.0;
   }
-  const Verdict verdict = verdict_on(measured, "at every error");
-  EXPECT_EQ(verdict.result, kPass);
-  EXPECT_NE(verdict.measured.find("known well enough: bullet_spring2"), std::string::npos) << verdict.measured;
+  const Check check = check_on(measured, "at every error");
+  EXPECT_EQ(check.result, kPass);
+  EXPECT_NE(check.measured.find("known well enough: bullet_spring2"), std::string::npos) << check.measured;
 }
 
-TEST(Verdicts, NothingIsJudgedAtErrorsThatAreRounding) {
+TEST(Checks, NothingIsJudgedAtErrorsThatAreRounding) {
   for (const double deflection : {2e-10, 2e-11}) {  // a thousandth: 2e-13 and 2e-14 m
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
@@ -434,13 +434,13 @@ TEST(Verdicts, NothingIsJudgedAtErrorsThatAreRounding) {
       row.largest_deflection = deflection;
     }
     const bool fine = deflection < 1e-10;
-    EXPECT_EQ(result_of(measured, "at 0.001 of the largest deflection", "every peer"), fine ? kNone : kPass);
-    const Verdict every = verdict_on(measured, "at every error");
+    EXPECT_EQ(result_of(measured, "at 0.001 of the largest deflection", "every baseline"), fine ? kNone : kPass);
+    const Check every = check_on(measured, "at every error");
     EXPECT_EQ(every.measured.find("poses are rounded") != std::string::npos, fine) << every.measured;
   }
 }
 
-TEST(Verdicts, TheTorsionSpringIsStiffFromItsNominalStiffnessOn) {
+TEST(Checks, TheTorsionSpringIsStiffFromItsNominalStiffnessOn) {
   for (const auto& [scene, factor, stiff] : {std::tuple{"B", 1.0, true}, std::tuple{"B", 0.01, false},
                                              std::tuple{"C", 1.0, false}, std::tuple{"C", 100.0, true}}) {
     Measurements measured;
@@ -451,28 +451,28 @@ TEST(Verdicts, TheTorsionSpringIsStiffFromItsNominalStiffnessOn) {
   }
 }
 
-TEST(Verdicts, WherePeersNeverArriveNothingIsJudged) {
+TEST(Checks, WhereBaselinesNeverArriveNothingIsJudged) {
   for (const bool arrives : {false, true}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes);
     add_line("ode_erp_cfm", 1.0, 1e3, measured.scenes);
     for (ErrorRow& row : measured.scenes) row.finite = row.ours || (arrives && row.error_over_hand_amplitude > 1e-3);
-    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), arrives ? kPass : kNone);
+    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every baseline"), arrives ? kPass : kNone);
   }
 }
 
-TEST(Verdicts, NothingIsComparedBelowWhatTheReferenceResolves) {
+TEST(Checks, NothingIsComparedBelowWhatTheReferenceResolves) {
   // The other's line begins at 1e-10 of the amplitude; the reference is known to 1e-8.
   Measurements measured;
   add_line("exponential", 1.0, 10.0, measured.scenes);
   add_line("hand_rk4", 1.0, 3.0, measured.scenes, 1e-4);
   for (ErrorRow& row : measured.scenes) row.reference_uncertainty = 1e-8 * kAmplitude;
-  const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "every peer");
-  EXPECT_NE(verdict.measured.find("at 2e-08, since"), std::string::npos) << verdict.measured;
-  EXPECT_NEAR(verdict.ratio.value_or(0.0), 3.0 * std::pow(1e-4, -0.25) / (10.0 * std::pow(2e-2, -0.25)), 1e-6);
+  const Check check = check_on(measured, "at 1e-06 of the amplitude", "every baseline");
+  EXPECT_NE(check.measured.find("at 2e-08, since"), std::string::npos) << check.measured;
+  EXPECT_NEAR(check.ratio.value_or(0.0), 3.0 * std::pow(1e-4, -0.25) / (10.0 * std::pow(2e-2, -0.25)), 1e-6);
 }
 
-TEST(Verdicts, OnATrackedHandTheErrorIsJudgedWithWhatTheSamplesLeave) {
+TEST(Checks, OnATrackedHandTheErrorIsJudgedWithWhatTheSamplesLeave) {
   for (const auto& [integration, left, held] :
        {std::tuple{0.5e-6, 0.4e-6, true}, std::tuple{1e-17, 1.1e-6, false}, std::tuple{0.6e-6, 0.5e-6, false}}) {
     Measurements measured;
@@ -489,7 +489,7 @@ TEST(Verdicts, OnATrackedHandTheErrorIsJudgedWithWhatTheSamplesLeave) {
   }
 }
 
-TEST(Verdicts, AChangeIsJudgedAsAMultipleOfAStep) {
+TEST(Checks, AChangeIsJudgedAsAMultipleOfAStep) {
   for (const auto& [nanoseconds, result] : {std::pair{2.9e4, kPass}, {3.1e4, kFail}}) {
     Measurements measured;
     measured.step_costs = {{"linear", 6, "advance by 20 ms", 1e4}, {"linear", 6, "advance after a grasp", nanoseconds}};
@@ -497,7 +497,7 @@ TEST(Verdicts, AChangeIsJudgedAsAMultipleOfAStep) {
   }
 }
 
-TEST(Verdicts, MotionsInContactAreJudgedByTheirOrder) {
+TEST(Checks, MotionsInContactAreJudgedByTheirOrder) {
   for (const auto& [order, against, result] :
        {std::tuple{1.79, "exact", kFail}, std::tuple{1.81, "exact", kPass}, std::tuple{2.0, "converged", kNone}}) {
     Measurements measured;
@@ -511,7 +511,7 @@ TEST(Verdicts, MotionsInContactAreJudgedByTheirOrder) {
   }
 }
 
-TEST(Verdicts, ToleranceIsKeptWhereEveryErrorIsWithinThreeBothWaysAndNoneWasGivenUp) {
+TEST(Checks, ToleranceIsKeptWhereEveryErrorIsWithinThreeBothWaysAndNoneWasGivenUp) {
   for (const auto& [share, given_up, held] :
        {std::tuple{1.0, false, true}, std::tuple{0.34, false, true}, std::tuple{2.9, false, true},
         std::tuple{0.32, false, false}, std::tuple{3.1, false, false}, std::tuple{1.0, true, false}}) {
@@ -531,7 +531,7 @@ TEST(Verdicts, ToleranceIsKeptWhereEveryErrorIsWithinThreeBothWaysAndNoneWasGive
   }
 }
 
-TEST(Verdicts, AToleranceIsJudgedBesideFixedSteps) {
+TEST(Checks, AToleranceIsJudgedBesideFixedSteps) {
   const auto judge = [](double share, double steps_per_second, double run_time, const std::string& claim) {
     Measurements measured;
     ErrorRow row;
@@ -562,7 +562,7 @@ TEST(Verdicts, AToleranceIsJudgedBesideFixedSteps) {
   EXPECT_EQ(judge(3.1, 50.0, 100.0, "errors"), kFail);
 }
 
-TEST(Verdicts, OneCellThatFailsByTheMapsOwnRuleIsEnoughForTheMapNotToHold) {
+TEST(Checks, OneCellThatFailsByTheMapsOwnRuleIsEnoughForTheMapNotToHold) {
   Measurements measured;
   StabilityRow row{"exponential", "linear"};
   row.cells = row.finite = row.bounded = row.energy_kept = row.held = 40;
@@ -578,13 +578,13 @@ TEST(Verdicts, OneCellThatFailsByTheMapsOwnRuleIsEnoughForTheMapNotToHold) {
   --measured.map.rows[1].held;
   EXPECT_EQ(result_of(measured, "Stability map, exponential"), kFail);
   measured.map.rows[0].on_its_own = 5;
-  const std::string figure = verdict_on(measured, "Stability map, exponential").measured;
+  const std::string figure = check_on(measured, "Stability map, exponential").measured;
   EXPECT_EQ(figure.rfind("79 of 80 cells hold, 5 of them on their own", 0), 0U) << figure;
   measured.map.rows[0].integrator = measured.map.rows[1].integrator = "rk4";
   EXPECT_EQ(result_of(measured, "Stability map, rk4"), kNone);
 }
 
-TEST(Verdicts, TheDragIsComparedAtTheCheapestRunsThatKeepLagAndDepth) {
+TEST(Checks, TheDragIsComparedAtTheCheapestRunsThatKeepLagAndDepth) {
   const auto drag = [](const std::string& method, double time, double lag_error, double depth) {
     DragRow row;
     row.method = method;
@@ -602,24 +602,24 @@ TEST(Verdicts, TheDragIsComparedAtTheCheapestRunsThatKeepLagAndDepth) {
                               drag("ode_erp_cfm", time, lag_error, depth), drag("dart_explicit", 1000.0, 0.0, 0.0)};
     measured.contact.drags.push_back(drag("bullet_explicit", 1.0, 0.0, 0.0));
     measured.contact.drags.back().turns = false;  // an easier scene
-    const Verdict verdict = verdict_on(measured, "Drag, contact stop", "best engine");
-    EXPECT_NEAR(verdict.ratio.value_or(0.0), ratio, 1e-9) << verdict.measured;
-    EXPECT_EQ(verdict.result, ratio > 1.0 ? kPass : kFail);
+    const Check check = check_on(measured, "Drag, contact stop", "best engine");
+    EXPECT_NEAR(check.ratio.value_or(0.0), ratio, 1e-9) << check.measured;
+    EXPECT_EQ(check.result, ratio > 1.0 ? kPass : kFail);
   }
 }
 
-TEST(Verdicts, TheRatioOfRunTimesIsAColumnOfTheTable) {
+TEST(Checks, TheRatioOfRunTimesIsAColumnOfTheTable) {
   Measurements measured;
   add_line("exponential", 1.0, 10.0, measured.scenes);
   add_line("hand_rk4", 1.0, 5.0, measured.scenes);
-  const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "every peer");
-  EXPECT_NEAR(verdict.ratio.value_or(0.0), 0.5, 1e-9);
-  const std::string csv = verdicts_csv({verdict, verdict_on(measured, "report")});
+  const Check check = check_on(measured, "at 1e-06 of the amplitude", "every baseline");
+  EXPECT_NEAR(check.ratio.value_or(0.0), 0.5, 1e-9);
+  const std::string csv = checks_csv({check, check_on(measured, "report")});
   EXPECT_NE(csv.find(",FAIL,0.5,hand_rk4,1e-06,0.5,\n"), std::string::npos) << csv;
   EXPECT_NE(csv.find(",PASS,,,,,\n"), std::string::npos) << csv;
 }
 
-TEST(Verdicts, OneCellThatFailsIsEnoughForTheMapOfContactNotToHold) {
+TEST(Checks, OneCellThatFailsIsEnoughForTheMapOfContactNotToHold) {
   Measurements measured;
   measured.contact_map.resize(100);
   for (MapRow& row : measured.contact_map) row.obstacle = "wall", row.to_the_end = true, row.times_real = 0.1;
@@ -633,21 +633,21 @@ TEST(Verdicts, OneCellThatFailsIsEnoughForTheMapOfContactNotToHold) {
   EXPECT_EQ(result_of(measured, "Map of contact, wall"), kFail);
 }
 
-TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
+TEST(Checks, OneLimitCaseThatFailsIsEnoughForContactToFail) {
   Measurements measured;
-  measured.extremes.assign(2, {"stack", "stop", 1e3, 0.02, 0, {}});
-  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::pass);
-  measured.extremes[1].outcome.penetration = 1.01e-4;
-  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
-  measured.extremes[1].outcome.penetration = 0.0;
-  measured.extremes[1].outcome.steps_blocked = 1;
-  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
-  measured.extremes[1].outcome.steps_blocked = 0;
-  measured.extremes[1].outcome.steps_unsolved = 1;
-  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
+  measured.limit_cases.assign(2, {"stack", "stop", 1e3, 0.02, 0, {}});
+  EXPECT_EQ(result_of(measured, "Limit cases of contact, stop"), Check::Result::pass);
+  measured.limit_cases[1].outcome.penetration = 1.01e-4;
+  EXPECT_EQ(result_of(measured, "Limit cases of contact, stop"), Check::Result::fail);
+  measured.limit_cases[1].outcome.penetration = 0.0;
+  measured.limit_cases[1].outcome.steps_blocked = 1;
+  EXPECT_EQ(result_of(measured, "Limit cases of contact, stop"), Check::Result::fail);
+  measured.limit_cases[1].outcome.steps_blocked = 0;
+  measured.limit_cases[1].outcome.steps_unsolved = 1;
+  EXPECT_EQ(result_of(measured, "Limit cases of contact, stop"), Check::Result::fail);
 }
 
-TEST(Verdicts, OnRodsEnginesAreAmongThePeersAndTheBestOfThemIsJudgedWhereOneWasRun) {
+TEST(Checks, OnRodsEnginesAreAmongTheBaselinesAndTheBestOfThemIsJudgedWhereOneWasRun) {
   const auto of_rod = [](std::vector<ErrorRow>& rows) {
     for (ErrorRow& row : rows) row.scene = "soft_light", row.shape = "linear", row.hand = "samples";
   };
@@ -657,7 +657,7 @@ TEST(Verdicts, OnRodsEnginesAreAmongThePeersAndTheBestOfThemIsJudgedWhereOneWasR
       add_line("exponential", 1.0, 10.0, measured.rods);
       add_line("solver_dop853", 1.0, 1e4, measured.rods);
       of_rod(measured.rods);
-      EXPECT_THROW(verdict_on(measured, "Rod soft_light", "the best engine"), std::runtime_error);
+      EXPECT_THROW(check_on(measured, "Rod soft_light", "the best engine"), std::runtime_error);
       add_line("ode_stable", 1.0, 10.0 * asked * share, measured.rods);
       add_line("bullet_explicit", 1.0, 1e5, measured.rods);
       of_rod(measured.rods);
@@ -665,7 +665,7 @@ TEST(Verdicts, OnRodsEnginesAreAmongThePeersAndTheBestOfThemIsJudgedWhereOneWasR
       for (const char* at : {"at 1e-06 of the amplitude", "at 0.001 of the largest deflection"}) {
         const std::string claim = std::string("hand by samples, ") + at;
         EXPECT_EQ(result_of(measured, claim, "the best engine"), share > 1.0 ? kPass : kFail) << mass << share;
-        EXPECT_EQ(verdict_on(measured, claim, "every peer").peer, "ode_stable");
+        EXPECT_EQ(check_on(measured, claim, "every baseline").baseline, "ode_stable");
       }
     }
   }
@@ -682,7 +682,7 @@ ErrorRow one_step_per_sample(const std::string& rod) {
   return row;
 }
 
-TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
+TEST(Checks, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
   for (const auto& [error, angle, held] :
        {std::tuple{0.9e-5, 0.9e-4, true}, std::tuple{1.1e-5, 0.0, false}, std::tuple{0.0, 1.1e-4, false}}) {
     Measurements measured;
@@ -690,11 +690,11 @@ TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
     row.position_error = error;
     row.angle_error = angle;
     measured.rods = {row};
-    EXPECT_EQ(result_of(measured, "Rod underdamped"), held ? Verdict::Result::pass : Verdict::Result::fail);
+    EXPECT_EQ(result_of(measured, "Rod underdamped"), held ? Check::Result::pass : Check::Result::fail);
   }
 }
 
-TEST(Verdicts, TheRodsOfWhichMoreWasAskedAreJudgedByThatToo) {
+TEST(Checks, TheRodsOfWhichMoreWasAskedAreJudgedByThatToo) {
   for (const auto& [between, held] : {std::pair{1.9e-7, true}, std::pair{2.1e-7, false}}) {
     Measurements measured;
     ErrorRow row = one_step_per_sample("recorded_soft_6dof");
@@ -702,19 +702,19 @@ TEST(Verdicts, TheRodsOfWhichMoreWasAskedAreJudgedByThatToo) {
     row.error_between = between;
     measured.rods = {row};
     int passed = 0;
-    for (const Verdict& verdict : verdicts(measured)) {
-      passed += verdict.claim == "Rod recorded_soft_6dof, exponential, steps of 20 ms at most, error of integration" &&
-                verdict.result == kPass;
+    for (const Check& check : checks(measured)) {
+      passed += check.claim == "Rod recorded_soft_6dof, exponential, steps of 20 ms at most, error of integration" &&
+                check.result == kPass;
     }
     EXPECT_EQ(passed, held ? 2 : 1);
   }
 }
 
-TEST(Verdicts, WhatWasNotMeasuredIsNotHeld) {
-  for (const Verdict& verdict : verdicts(Measurements())) {
-    EXPECT_TRUE(verdict.result == Verdict::Result::not_measured || verdict.claim == "report") << verdict.claim;
+TEST(Checks, WhatWasNotMeasuredIsNotHeld) {
+  for (const Check& check : checks(Measurements())) {
+    EXPECT_TRUE(check.result == Check::Result::not_measured || check.claim == "report") << check.claim;
   }
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark::verdicts_test
+}  // namespace spring_workbench::benchmark::checks_test

@@ -1,4 +1,4 @@
-#include "benchmark/verdicts.h"
+#include "benchmark/checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,9 +32,8 @@ std::string text(double value, int digits = 3) {
   return out.str();
 }
 
-Verdict judged(std::string claim, std::string target, std::string measured, bool held) {
-  return {std::move(claim), std::move(target), std::move(measured),
-          held ? Verdict::Result::pass : Verdict::Result::fail};
+Check judged(std::string claim, std::string target, std::string measured, bool held) {
+  return {std::move(claim), std::move(target), std::move(measured), held ? Check::Result::pass : Check::Result::fail};
 }
 
 /// Whether the limit of one of our integrators is not the equation of motion.
@@ -50,10 +49,12 @@ bool is_dop853_or_radau(const std::string& method) {
 std::string time_of(const std::optional<double>& time) { return time ? text(*time) + " µs/s" : "does not reach it"; }
 
 std::string text_of(const Pair& pair, const ErrorTarget& target) {
-  const bool ended = !pair.peer_time && std::isfinite(pair.peer_beyond);
-  std::string figure = "ours " + time_of(pair.ours) + ", " + pair.peer + ' ';
-  figure += ended ? "slower than " + text(pair.peer_beyond) + " µs/s, where its line ends" : time_of(pair.peer_time);
-  if (pair.ours && (pair.peer_time || ended)) figure += (ended ? ": more than " : " = ") + text(*pair.ratio()) + "×";
+  const bool ended = !pair.baseline_time && std::isfinite(pair.baseline_beyond);
+  std::string figure = "ours " + time_of(pair.ours) + ", " + pair.baseline + ' ';
+  figure +=
+      ended ? "slower than " + text(pair.baseline_beyond) + " µs/s, where its line ends" : time_of(pair.baseline_time);
+  if (pair.ours && (pair.baseline_time || ended))
+    figure += (ended ? ": more than " : " = ") + text(*pair.ratio()) + "×";
   if (pair.error < target.error) figure += ", at " + text(pair.error) + ", since its line begins no earlier";
   return figure;
 }
@@ -69,7 +70,7 @@ std::string integration_alone(const SceneRows& scene, const ErrorTarget& target)
   return ", error of integration alone (of the deflection the samples leave " + text(left) + ")";
 }
 
-/// Names those of the peers wanted that are not compared.
+/// Names those of the baselines wanted that are not compared.
 std::string without(const SceneRows& scene, const ErrorTarget& target,
                     const std::function<bool(const std::string&)>& wanted) {
   std::string names;
@@ -78,49 +79,50 @@ std::string without(const SceneRows& scene, const ErrorTarget& target,
 }
 
 /// Whether ours is first of all; not judged if it leads by no more than what run times differ by from run to run.
-Verdict::Result first_by(double ratio) {
-  if (ratio <= 1.0) return Verdict::Result::fail;
-  return ratio >= kRepeatable ? Verdict::Result::pass : Verdict::Result::not_measured;
+Check::Result first_by(double ratio) {
+  if (ratio <= 1.0) return Check::Result::fail;
+  return ratio >= kRepeatable ? Check::Result::pass : Check::Result::not_measured;
 }
 
-/// Compares ours with the best of some peers: the ratio of run times must be at least `least`; 1: ours must be first.
-Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::string& whom,
-                const std::function<bool(const std::string&)>& wanted, double least) {
+/// Compares ours with the best of some baselines: the ratio of run times must be at least `least`; 1: ours must be
+/// first.
+Check against(const SceneRows& scene, const ErrorTarget& target, const std::string& whom,
+              const std::function<bool(const std::string&)>& wanted, double least) {
   const bool every = least == 1.0;
-  Verdict verdict{named(scene) + ", at " + target.text() + integration_alone(scene, target) + ": run time of " + whom +
-                      " over ours",
-                  every ? kFirstOfAll : "≥ " + text(least) + "×", ""};
+  Check check{named(scene) + ", at " + target.text() + integration_alone(scene, target) + ": run time of " + whom +
+                  " over ours",
+              every ? kFirstOfAll : "≥ " + text(least) + "×", ""};
   const double share = scene.share_of_deflection(target);
   const std::vector<Pair> pairs = scene.pairs(target, wanted);
   if (pairs.empty()) {
-    verdict.measured = "not judged: none of them was found, or none has a limit that is known well enough";
+    check.measured = "not judged: none of them was found, or none has a limit that is known well enough";
   } else if (share > kLargestShare) {
-    verdict.measured =
+    check.measured =
         "not judged: that is " + text(100.0 * share) + " % of the largest deflection; " + text_of(pairs[0], target);
   } else if (scene.length_of(target) < kFinest) {
-    verdict.measured = "not judged: that is " + text(scene.length_of(target)) + " m, and poses are rounded; " +
-                       text_of(pairs[0], target);
+    check.measured = "not judged: that is " + text(scene.length_of(target)) + " m, and poses are rounded; " +
+                     text_of(pairs[0], target);
   } else if (target.error < min_of_reference * scene.uncertainty(target)) {
-    verdict.measured =
+    check.measured =
         "not judged: the reference is known to " + text(scene.uncertainty(target)) + "; " + text_of(pairs[0], target);
   } else if (!pairs[0].ratio()) {
-    verdict.measured = "no one reaches it";
+    check.measured = "no one reaches it";
   } else if (!scene.anyone_arrives(wanted)) {
-    verdict.measured = "not judged: none of them has a run that arrived";
+    check.measured = "not judged: none of them has a run that arrived";
   } else {
-    verdict.measured = text_of(pairs[0], target);
+    check.measured = text_of(pairs[0], target);
     const double ratio = *pairs[0].ratio(), left = scene.left_by_samples();
-    verdict.ratio = ratio;
-    verdict.peer = pairs[0].peer;
-    verdict.error = pairs[0].error;
-    verdict.within = scene.ratio_within(target, wanted);
-    if (left > 0.0) verdict.left_by_samples = left;
-    verdict.result = every ? first_by(ratio) : ratio >= least ? Verdict::Result::pass : Verdict::Result::fail;
+    check.ratio = ratio;
+    check.baseline = pairs[0].baseline;
+    check.error = pairs[0].error;
+    check.within = scene.ratio_within(target, wanted);
+    if (left > 0.0) check.left_by_samples = left;
+    check.result = every ? first_by(ratio) : ratio >= least ? Check::Result::pass : Check::Result::fail;
     if (!every && ratio >= least && ratio < kRepeatable * least)
-      verdict.measured += "; another run may miss it, since run times differ by up to " + text(kRepeatable) + "×";
+      check.measured += "; another run may miss it, since run times differ by up to " + text(kRepeatable) + "×";
   }
-  verdict.measured += without(scene, target, wanted);
-  return verdict;
+  check.measured += without(scene, target, wanted);
+  return check;
 }
 
 /// Errors from a tenth of the largest deflection down to `least`, two per decade.
@@ -136,7 +138,7 @@ std::vector<double> errors_down_to(double least) {
 
 /// Compares ours with all at the errors that the samples allow: from a tenth of the largest deflection down to what
 /// they leave open. If that is more, or not known, down to a thousandth: the error of integration alone.
-Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
+Check at_every_error(const SceneRows& scene, const std::string& whom) {
   const double left = scene.left_by_samples();
   const bool allows_some = left > 0.0 && left <= kLargestShare;
   const std::vector<double> errors = errors_down_to(allows_some ? left : 1e-3);
@@ -144,7 +146,7 @@ Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
       allows_some ? "at every error that the samples allow, " + text(left) + " of the largest deflection and more"
                   : "at every error from a tenth to a thousandth of the largest deflection, of integration alone (" +
                         (left > 0.0 ? "the samples leave " + text(left) : "what the samples leave is not known") + ')';
-  Verdict verdict{named(scene) + ", " + range + ": run time of " + whom + " over ours", kFirstOfAll, ""};
+  Check check{named(scene) + ", " + range + ": run time of " + whom + " over ours", kFirstOfAll, ""};
   int judged = 0;
   bool too_fine = false;
   std::string lost;
@@ -154,17 +156,17 @@ Verdict at_every_error(const SceneRows& scene, const std::string& whom) {
     too_fine = too_fine || scene.length_of(target) < kFinest;
     if (pairs.empty() || !pairs[0].ratio() || too_fine) continue;
     ++judged;
-    verdict.ratio = std::min(verdict.ratio.value_or(*pairs[0].ratio()), *pairs[0].ratio());
+    check.ratio = std::min(check.ratio.value_or(*pairs[0].ratio()), *pairs[0].ratio());
     if (*pairs[0].ratio() <= 1.0) lost += (lost.empty() ? "" : "; ") + text(error) + ": " + text_of(pairs[0], target);
   }
-  verdict.measured = judged == 0 ? "no one reaches any"
-                     : lost.empty()
-                         ? "first at all " + std::to_string(judged) + ", by " + text(*verdict.ratio) + "× at least"
-                         : "of " + std::to_string(judged) + " lost at " + lost;
-  if (judged > 0) verdict.result = first_by(*verdict.ratio);
-  if (too_fine) verdict.measured += "; below " + text(kFinest) + " m not judged, since poses are rounded";
-  verdict.measured += without(scene, {errors.back(), kOfDeflection}, is_any);
-  return verdict;
+  check.measured = judged == 0 ? "no one reaches any"
+                   : lost.empty()
+                       ? "first at all " + std::to_string(judged) + ", by " + text(*check.ratio) + "× at least"
+                       : "of " + std::to_string(judged) + " lost at " + lost;
+  if (judged > 0) check.result = first_by(*check.ratio);
+  if (too_fine) check.measured += "; below " + text(kFinest) + " m not judged, since poses are rounded";
+  check.measured += without(scene, {errors.back(), kOfDeflection}, is_any);
+  return check;
 }
 
 /// The stiffnesses of a scene that were run (few with --quick).
@@ -174,7 +176,7 @@ std::string text_of(const std::set<double>& factors) {
   return list;
 }
 
-void one_step_per_sample(const Measurements& m, const std::string& scene, std::vector<Verdict>& out) {
+void one_step_per_sample(const Measurements& m, const std::string& scene, std::vector<Check>& out) {
   const std::string unit = scene == "A" ? " m" : " rad";
   for (const char* hand : {"samples", "function"}) {
     std::set<double> factors;
@@ -214,27 +216,25 @@ bool is_stiff(const ErrorRow& row) {
 }
 
 /// By how much ours should be faster than the best engine.
-void against_engines(const SceneRows& scene, const ErrorTarget& target, std::vector<Verdict>& out) {
+void against_engines(const SceneRows& scene, const ErrorTarget& target, std::vector<Check>& out) {
   out.push_back(against(scene, target, "the best engine", is_engine, is_stiff(scene.rows[0]) ? 50.0 : 20.0));
 }
 
 /// The same for CVODE.
-void against_cvode(const SceneRows& scene, const ErrorTarget& target, std::vector<Verdict>& out) {
+void against_cvode(const SceneRows& scene, const ErrorTarget& target, std::vector<Check>& out) {
   out.push_back(against(scene, target, "CVODE in any form", is_cvode, is_stiff(scene.rows[0]) ? 20.0 : 2.0));
 }
 
-/// How many comparisons with every peer would end otherwise if run times between two settings were not used.
-void without_interpolation(std::vector<SceneRows> scenes, std::vector<Verdict>& out) {
+/// How many comparisons with every baseline would end otherwise if run times between two settings were not used.
+void without_interpolation(std::vector<SceneRows> scenes, std::vector<Check>& out) {
   int worse = 0, better = 0, count = 0;
-  const auto rank = [](const Verdict& v) {
-    return v.result == Verdict::Result::fail ? 0 : v.ratio < kRepeatable ? 1 : 2;
-  };
+  const auto rank = [](const Check& v) { return v.result == Check::Result::fail ? 0 : v.ratio < kRepeatable ? 1 : 2; };
   for (SceneRows& scene : scenes) {
     for (const ErrorTarget& target : targets()) {
       scene.interpolates = true;
-      const Verdict as_judged = against(scene, target, "every peer", is_any, 1.0);
+      const Check as_judged = against(scene, target, "every baseline", is_any, 1.0);
       scene.interpolates = false;
-      const Verdict measured = against(scene, target, "every peer", is_any, 1.0);
+      const Check measured = against(scene, target, "every baseline", is_any, 1.0);
       if (!as_judged.ratio || !measured.ratio) continue;
       ++count;
       worse += rank(measured) < rank(as_judged);
@@ -242,17 +242,17 @@ void without_interpolation(std::vector<SceneRows> scenes, std::vector<Verdict>& 
     }
   }
   if (count == 0) return;
-  out.push_back({"Comparisons with every peer, from measured settings alone, without run times between two of them",
+  out.push_back({"Comparisons with every baseline, from measured settings alone, without run times between two of them",
                  "(not a target)",
                  "compared " + std::to_string(count) + "; worse for ours " + std::to_string(worse) +
                      "; better for ours " + std::to_string(better)});
 }
 
-void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {
+void against_baselines(const SceneRows& scene, std::vector<Check>& out) {
   const ErrorRow& first = scene.rows[0];
   const bool sampled = first.hand == "samples";
-  for (const ErrorTarget& target : targets()) out.push_back(against(scene, target, "every peer", is_any, 1.0));
-  if (sampled) out.push_back(at_every_error(scene, "every peer"));
+  for (const ErrorTarget& target : targets()) out.push_back(against(scene, target, "every baseline", is_any, 1.0));
+  if (sampled) out.push_back(at_every_error(scene, "every baseline"));
   if (!sampled && !is_stiff(first))
     out.push_back(against(scene, {1e-9, kOfAmplitude}, "DOP853 and Radau IIA", is_dop853_or_radau, 1.0));
   for (const ErrorTarget& target : {targets()[0], targets()[1]}) {
@@ -262,7 +262,7 @@ void against_peers(const SceneRows& scene, std::vector<Verdict>& out) {
 }
 
 /// By how much the two rounds of a run differ in the run times that are compared.
-void repeatability(const Measurements& m, std::vector<Verdict>& out) {
+void repeatability(const Measurements& m, std::vector<Check>& out) {
   std::vector<double> ratios;
   for (const std::vector<ErrorRow>* rows : {&m.scenes, &m.rods}) {
     for (const ErrorRow& row : *rows) {
@@ -272,13 +272,12 @@ void repeatability(const Measurements& m, std::vector<Verdict>& out) {
   if (ratios.empty()) return;
   std::sort(ratios.begin(), ratios.end());
   const auto beyond = std::distance(std::upper_bound(ratios.begin(), ratios.end(), kRepeatable), ratios.end());
-  Verdict verdict{"Run times of a method and setting, the slower round over the faster", "(not a target)",
-                  "median " + text(ratios[ratios.size() / 2]) + "; 95 % below " +
-                      text(ratios[ratios.size() * 95 / 100]) + "; most " + text(ratios.back()) + "; more than " +
-                      text(kRepeatable) + " in " +
-                      text(100.0 * static_cast<double>(beyond) / static_cast<double>(ratios.size())) + " % of " +
-                      std::to_string(ratios.size())};
-  out.push_back(verdict);
+  Check check{"Run times of a method and setting, the slower round over the faster", "(not a target)",
+              "median " + text(ratios[ratios.size() / 2]) + "; 95 % below " + text(ratios[ratios.size() * 95 / 100]) +
+                  "; most " + text(ratios.back()) + "; more than " + text(kRepeatable) + " in " +
+                  text(100.0 * static_cast<double>(beyond) / static_cast<double>(ratios.size())) + " % of " +
+                  std::to_string(ratios.size())};
+  out.push_back(check);
 }
 
 /// Time of a step of MuJoCo's RK4 in scene C [µs], for comparing machines. Infinite if not measured.
@@ -293,7 +292,7 @@ double mujoco_step(const Measurements& m) {
 }
 
 /// Times of the feasibility sketch, from another machine, scaled by the times of MuJoCo's step there and here.
-void sketch(const Measurements& m, std::vector<Verdict>& out) {
+void sketch(const Measurements& m, std::vector<Check>& out) {
   constexpr double there = 3.164;  // [µs]
   const double here = mujoco_step(m), slower = std::isfinite(here) ? here / there : 1.0;
   for (const auto& [factor, run_time] : {std::pair{1.0, 425.0}, std::pair{100.0, 42.0}}) {
@@ -311,20 +310,20 @@ void sketch(const Measurements& m, std::vector<Verdict>& out) {
 }
 
 /// The rods on a tracked hand that were run with general methods or engines, in the shapes of these runs.
-std::vector<SceneRows> rods_with_peers(const Measurements& m) {
-  std::set<std::pair<std::string, std::string>> with_peers;
+std::vector<SceneRows> rods_with_baselines(const Measurements& m) {
+  std::set<std::pair<std::string, std::string>> with_baselines;
   for (const ErrorRow& row : m.rods)
-    if (!row.ours) with_peers.emplace(row.scene, row.shape);
+    if (!row.ours) with_baselines.emplace(row.scene, row.shape);
   std::vector<ErrorRow> rows;
   std::copy_if(m.rods.begin(), m.rods.end(), std::back_inserter(rows), [&](const ErrorRow& row) {
-    return with_peers.count({row.scene, row.shape}) > 0 && row.error_over_tolerance == 0.0;
+    return with_baselines.count({row.scene, row.shape}) > 0 && row.error_over_tolerance == 0.0;
   });
   return by_scene(rows);
 }
 
-void rod_against_peers(const SceneRows& rod, std::vector<Verdict>& out) {
-  for (const ErrorTarget& target : targets()) out.push_back(against(rod, target, "every peer", is_any, 1.0));
-  out.push_back(at_every_error(rod, "every peer"));
+void rod_against_baselines(const SceneRows& rod, std::vector<Check>& out) {
+  for (const ErrorTarget& target : targets()) out.push_back(against(rod, target, "every baseline", is_any, 1.0));
+  out.push_back(at_every_error(rod, "every baseline"));
   const auto is_of_engine = [](const ErrorRow& row) { return !row.ours && is_engine(row.method); };
   const bool has_engines = std::any_of(rod.rows.begin(), rod.rows.end(), is_of_engine);
   for (const ErrorTarget& target : {targets()[0], targets()[1]}) {
@@ -334,7 +333,7 @@ void rod_against_peers(const SceneRows& rod, std::vector<Verdict>& out) {
 }
 
 /// One step per sample: the original requirement, and the later one of 2e-7 m for two rods.
-void rods(const Measurements& m, std::vector<Verdict>& out) {
+void rods(const Measurements& m, std::vector<Check>& out) {
   for (const ErrorRow& row : m.rods) {
     if (row.method != kOurs || row.shape != "linear" || std::abs(row.step - kEvery50Hz) > 1e-9) continue;
     const std::string name = row.scene.substr(row.scene.rfind("recorded_", 0) == 0 ? 9 : 0);
@@ -351,7 +350,7 @@ void rods(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-void cost_of_a_step(const Measurements& m, std::vector<Verdict>& out) {
+void cost_of_a_step(const Measurements& m, std::vector<Check>& out) {
   double ours = 0.0;
   for (const ErrorRow& row : m.rods) {
     if (row.scene == "soft_6dof" && row.shape == "linear" && row.method == kOurs && row.finite &&
@@ -359,18 +358,18 @@ void cost_of_a_step(const Measurements& m, std::vector<Verdict>& out) {
       ours = kEvery50Hz * row.wall_us_per_simulated_second;
     }
   }
-  const double peer = mujoco_step(m);
+  const double baseline = mujoco_step(m);
   const std::string claim = "20 ms of the rod (soft_6dof, linear, exponential, steps of 20 ms at most, with its hand)";
   const std::string target = "≤ 2 MuJoCo RK4 steps of scene C";
-  if (ours > 0.0 && std::isfinite(peer)) {
-    out.push_back(judged(claim, target, text(ours) + " µs; MuJoCo " + text(peer) + " µs", ours <= 2.0 * peer));
+  if (ours > 0.0 && std::isfinite(baseline)) {
+    out.push_back(judged(claim, target, text(ours) + " µs; MuJoCo " + text(baseline) + " µs", ours <= 2.0 * baseline));
   } else {
-    out.push_back({claim, target, "not measured", Verdict::Result::not_measured});
+    out.push_back({claim, target, "not measured", Check::Result::not_measured});
   }
 }
 
 /// What runs of `method` to a tolerance cost and how far below it they end, beside fixed steps on the same rod.
-void tolerance_beside_steps(const Measurements& m, const std::string& method, std::vector<Verdict>& out) {
+void tolerance_beside_steps(const Measurements& m, const std::string& method, std::vector<Check>& out) {
   int kept = 0, longest_already = 0, count = 0, cheap = 0, compared = 0;
   double dearest = 0.0;
   std::string where;
@@ -413,7 +412,7 @@ void tolerance_beside_steps(const Measurements& m, const std::string& method, st
              cheap == compared));
 }
 
-void tolerance(const Measurements& m, std::vector<Verdict>& out) {
+void tolerance(const Measurements& m, std::vector<Check>& out) {
   std::set<std::string> methods;
   for (const ErrorRow& row : m.rods) {
     if (row.tolerance > 0.0 && row.ours) methods.insert(row.method);
@@ -444,7 +443,7 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
 }
 
 /// Distance of an integrator's own limit from the exact motion.
-void model_errors(const Measurements& m, std::vector<Verdict>& out) {
+void model_errors(const Measurements& m, std::vector<Check>& out) {
   std::map<std::string, std::vector<const ErrorRow*>> rows_of;
   for (const ErrorRow& row : m.rods) {
     if (row.ours && has_own_law(row.method) && row.finite) rows_of[row.method].push_back(&row);
@@ -457,11 +456,11 @@ void model_errors(const Measurements& m, std::vector<Verdict>& out) {
          "none: what the scheme leaves out",
          text((*least)->model_error) + " m (" + (*least)->scene + ") … " + text((*most)->model_error) + " m (" +
              (*most)->scene + ')',
-         Verdict::Result::not_measured});
+         Check::Result::not_measured});
   }
 }
 
-void stability(const Measurements& m, std::vector<Verdict>& out) {
+void stability(const Measurements& m, std::vector<Check>& out) {
   for (const std::string& name : validation::names<dynamics::IntegratorKind>()) {
     StabilityRow sum;
     for (const StabilityRow& row : m.map.rows) {
@@ -482,17 +481,17 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
     const bool stiffly_stable = dynamics::make_integrator(kind)->stiffly_stable();
     if (has_own_law(name)) {
       out.push_back(
-          {claim + " (its energy, that of another law, is not judged)", "none", figure, Verdict::Result::not_measured});
+          {claim + " (its energy, that of another law, is not judged)", "none", figure, Check::Result::not_measured});
     } else if (stiffly_stable) {
       out.push_back(judged(
           claim,
-          "every cell stays finite and, unless the hand turns to the end, within reach, no step is refused, and, "
+          "every cell stays finite and, unless the hand turns to the end, within reach, no step is rejected, and, "
           "while the hand rests or trembles, no energy is gained beyond the hand's work but what the steps "
           "estimate, a hundredth at most (not judged while the hand turns, and if its work is not known to a "
           "hundredth)",
           figure, sum.held == sum.cells));
     } else {
-      out.push_back({claim + " (a baseline with a stability limit)", "none", figure, Verdict::Result::not_measured});
+      out.push_back({claim + " (a baseline with a stability limit)", "none", figure, Check::Result::not_measured});
       continue;
     }
     out.push_back(judged(claim + ": processor time",
@@ -503,7 +502,7 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
 }
 
 /// Cost of changes at run time, as a multiple of an advance without one.
-void cost_of_a_change(const Measurements& m, std::vector<Verdict>& out) {
+void cost_of_a_change(const Measurements& m, std::vector<Check>& out) {
   constexpr double kTimes = 3.0;
   double usual = 0.0;
   for (const StepCost& cost : m.step_costs) {
@@ -518,7 +517,7 @@ void cost_of_a_change(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-void shapes(const Measurements& m, std::vector<Verdict>& out) {
+void shapes(const Measurements& m, std::vector<Check>& out) {
   constexpr double target = 1.2e-3;  // the table of the model, with its rounding
   for (const ElasticaRow& row : m.elastica) {
     if (row.shape != "linear" || row.alpha != 2.0) continue;
@@ -534,7 +533,7 @@ std::set<std::string> scenes_of(const std::vector<MotionStepRow>& rows) {
 }
 
 /// Motions in contact: the error at 2 ms, and its convergence order below.
-void orders(const Measurements& m, const std::string& scene, std::vector<Verdict>& out) {
+void orders(const Measurements& m, const std::string& scene, std::vector<Check>& out) {
   const MotionStepRow *longest = nullptr, *shortest = nullptr;
   for (const MotionStepRow& row : m.contact.motion_steps) {
     if (row.scene != scene || row.step > 2.001e-3) continue;
@@ -546,7 +545,7 @@ void orders(const Measurements& m, const std::string& scene, std::vector<Verdict
   const std::string figure = text(1e3 * longest->error) + " mm = " + text(100.0 * longest->error_share) + " %";
   if (longest->against != "exact") {
     out.push_back({claim + ", step 2 ms, against a run of ours with steps of 0.1 ms, which is no reference", "none",
-                   figure, Verdict::Result::not_measured});
+                   figure, Check::Result::not_measured});
     return;
   }
   out.push_back(
@@ -575,29 +574,29 @@ const DragRow* cheapest_drag(const Measurements& m, double factor,
 }
 
 /// Run time of the drag in one of our modes and in the best engine.
-void drag_run_time(const Measurements& m, const std::string& mode, double factor, std::vector<Verdict>& out) {
+void drag_run_time(const Measurements& m, const std::string& mode, double factor, std::vector<Check>& out) {
   const DragRow* ours = cheapest_drag(m, factor, [&](const std::string& method) { return method == mode; });
   const DragRow* engine =
       cheapest_drag(m, factor, [](const std::string& method) { return method != "stop" && method != "dynamic"; });
-  Verdict verdict{"Drag, contact " + mode + ", stiffness × " + text(factor) +
-                      ", lag within 0.1 %, penetration ≤ 0.01 mm: run time of the best engine over ours",
-                  "> 1", "no one keeps both"};
+  Check check{"Drag, contact " + mode + ", stiffness × " + text(factor) +
+                  ", lag within 0.1 %, penetration ≤ 0.01 mm: run time of the best engine over ours",
+              "> 1", "no one keeps both"};
   const auto told = [](const std::string& name, const DragRow* row) {
     return name + (row == nullptr ? " does not" : ' ' + text(row->cpu_us_per_simulated_second) + " µs/s");
   };
   if (ours != nullptr || engine != nullptr) {
     const double none = std::numeric_limits<double>::infinity();
-    verdict.ratio = ours == nullptr     ? 0.0
-                    : engine == nullptr ? none
-                                        : engine->cpu_us_per_simulated_second / ours->cpu_us_per_simulated_second;
-    verdict.measured = told("ours", ours) + ", " + told(engine == nullptr ? "any engine" : engine->method, engine);
-    if (ours != nullptr && engine != nullptr) verdict.measured += " = " + text(*verdict.ratio) + "×";
-    verdict.result = *verdict.ratio > 1.0 ? Verdict::Result::pass : Verdict::Result::fail;
+    check.ratio = ours == nullptr     ? 0.0
+                  : engine == nullptr ? none
+                                      : engine->cpu_us_per_simulated_second / ours->cpu_us_per_simulated_second;
+    check.measured = told("ours", ours) + ", " + told(engine == nullptr ? "any engine" : engine->method, engine);
+    if (ours != nullptr && engine != nullptr) check.measured += " = " + text(*check.ratio) + "×";
+    check.result = *check.ratio > 1.0 ? Check::Result::pass : Check::Result::fail;
   }
-  out.push_back(verdict);
+  out.push_back(check);
 }
 
-void contact(const Measurements& m, std::vector<Verdict>& out) {
+void contact(const Measurements& m, std::vector<Check>& out) {
   for (const char* mode : {"stop", "dynamic"}) {
     std::set<double> factors;
     double lag = 0.0, depth = 0.0;
@@ -633,11 +632,11 @@ void contact(const Measurements& m, std::vector<Verdict>& out) {
   for (const std::string& scene : scenes_of(m.contact.motion_steps)) orders(m, scene, out);
 }
 
-void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
+void contact_limit_cases(const Measurements& m, std::vector<Check>& out) {
   for (const char* mode : {"stop", "dynamic"}) {
-    ExtremeOutcome worst;
+    LimitCaseOutcome worst;
     int cells = 0, held = 0, blocked = 0, unsolved = 0;
-    for (const ExtremeRow& row : m.extremes) {
+    for (const LimitCaseRow& row : m.limit_cases) {
       if (row.contact != mode) continue;
       ++cells;
       unsolved += row.outcome.steps_unsolved;
@@ -648,9 +647,9 @@ void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
     }
     if (cells == 0) continue;
     out.push_back(
-        judged(std::string("Contact at its extremes, ") + mode,
+        judged(std::string("Limit cases of contact, ") + mode,
                "every cell finite, bounded, ≤ 0.1 mm deep, gains no more energy than 3 µm of depth are worth, no step "
-               "refused, blocked or unsolved",
+               "rejected, blocked or unsolved",
                std::to_string(held) + " of " + std::to_string(cells) + " cells; deepest " +
                    text(1e3 * worst.penetration) + " mm, most gained " + text(1e6 * worst.energy_gained) + " µm; " +
                    std::to_string(blocked) + " steps blocked, " + std::to_string(unsolved) + " unsolved",
@@ -658,7 +657,7 @@ void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
-void contact_map(const Measurements& m, std::vector<Verdict>& out) {
+void contact_map(const Measurements& m, std::vector<Check>& out) {
   for (const std::string& obstacle : map_scenes()) {
     MapRow worst;
     int cells = 0, held = 0, slow = 0;
@@ -676,7 +675,7 @@ void contact_map(const Measurements& m, std::vector<Verdict>& out) {
     if (cells == 0) continue;
     out.push_back(
         judged("Map of contact, " + obstacle,
-               "every cell finite, within 0.5 m, ≤ 0.1 mm deep, no step refused, blocked or unsolved, below three "
+               "every cell finite, within 0.5 m, ≤ 0.1 mm deep, no step rejected, blocked or unsolved, below three "
                "times real time; 99 % below real time",
                std::to_string(held) + " of " + std::to_string(cells) + " cells; farthest " + text(worst.moved) +
                    " m, deepest " + text(1e3 * worst.depth) + " mm, " + std::to_string(worst.steps_blocked) +
@@ -688,31 +687,31 @@ void contact_map(const Measurements& m, std::vector<Verdict>& out) {
 
 }  // namespace
 
-std::string name_of(Verdict::Result result) {
+std::string name_of(Check::Result result) {
   switch (result) {
-    case Verdict::Result::pass:
+    case Check::Result::pass:
       return "PASS";
-    case Verdict::Result::fail:
+    case Check::Result::fail:
       return "FAIL";
-    case Verdict::Result::not_measured:
+    case Check::Result::not_measured:
       break;
   }
   return "–";
 }
 
-std::vector<Verdict> verdicts(const Measurements& measured) {
-  std::vector<Verdict> out;
+std::vector<Check> checks(const Measurements& measured) {
+  std::vector<Check> out;
   for (const char* scene : {"A", "B"}) one_step_per_sample(measured, scene, out);
   const std::vector<SceneRows> scenes = by_scene(measured.scenes);
   for (const char* hand : {"samples", "function"}) {
     for (const SceneRows& scene : scenes) {
-      if (scene.rows[0].hand == hand) against_peers(scene, out);
+      if (scene.rows[0].hand == hand) against_baselines(scene, out);
     }
   }
   repeatability(measured, out);
   sketch(measured, out);
-  const std::vector<SceneRows> rods_compared = rods_with_peers(measured);
-  for (const SceneRows& rod : rods_compared) rod_against_peers(rod, out);
+  const std::vector<SceneRows> rods_compared = rods_with_baselines(measured);
+  for (const SceneRows& rod : rods_compared) rod_against_baselines(rod, out);
   std::vector<SceneRows> compared = scenes;
   compared.insert(compared.end(), rods_compared.begin(), rods_compared.end());
   without_interpolation(std::move(compared), out);
@@ -723,7 +722,7 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
   tolerance(measured, out);
   model_errors(measured, out);
   contact(measured, out);
-  contact_extremes(measured, out);
+  contact_limit_cases(measured, out);
   contact_map(measured, out);
   stability(measured, out);
   const double limit = measured.quick ? 60.0 : 1200.0;
@@ -734,18 +733,18 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
   return out;
 }
 
-std::string verdicts_csv(const std::vector<Verdict>& verdicts) {
+std::string checks_csv(const std::vector<Check>& checks) {
   std::ostringstream out;
-  out << "claim,target,measured,verdict,ratio,peer,error,ratio_within,left_by_samples\n";
+  out << "claim,target,measured,result,ratio,baseline,error,ratio_within,left_by_samples\n";
   const auto quoted = [](std::string cell) {
     for (std::size_t i = 0; (i = cell.find('"', i)) != std::string::npos; i += 2) cell.insert(i, 1, '"');
     return '"' + cell + '"';
   };
-  for (const Verdict& v : verdicts) {
+  for (const Check& v : checks) {
     out << quoted(v.claim) << ',' << quoted(v.target) << ',' << quoted(v.measured) << ',' << name_of(v.result);
     const auto add = [&](const std::optional<double>& number) { out << ',' << (number ? text(*number) : ""); };
     add(v.ratio);
-    out << ',' << v.peer;
+    out << ',' << v.baseline;
     for (const auto& number : {v.error, v.within, v.left_by_samples}) add(number);
     out << '\n';
   }

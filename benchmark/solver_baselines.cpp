@@ -1,15 +1,15 @@
 #include <utility>
 
+#include "benchmark/baselines.h"
 #include "benchmark/function_hand.h"
-#include "benchmark/peers.h"
 #include "benchmark/solver_run.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
-class SolverPeer : public Method {
+class SolverBaseline : public Method {
  public:
-  explicit SolverPeer(std::string name) : name_(std::move(name)) {}
+  explicit SolverBaseline(std::string name) : name_(std::move(name)) {}
   std::string name() const override { return name_; }
   Knob knob() const override { return takes_step(name_) ? Knob::step : Knob::tolerance; }
 
@@ -28,10 +28,10 @@ class SolverPeer : public Method {
 
 }  // namespace
 
-std::vector<MethodPtr> solver_peers() {
-  std::vector<MethodPtr> peers;
-  for (const std::string& name : solver_names()) peers.push_back(std::make_unique<SolverPeer>(name));
-  return peers;
+std::vector<MethodPtr> solver_baselines() {
+  std::vector<MethodPtr> baselines;
+  for (const std::string& name : solver_names()) baselines.push_back(std::make_unique<SolverBaseline>(name));
+  return baselines;
 }
 
 }  // namespace spring_workbench::benchmark

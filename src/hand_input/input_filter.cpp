@@ -1,4 +1,4 @@
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/hand_input/input_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "spring_workbench/hand_input/playout_clock.h"
 #include "spring_workbench/hand_input/pose_filter.h"
 #include "spring_workbench/motion/pose_predictor.h"
+#include "spring_workbench/validation/element.h"
 
 namespace spring_workbench::hand_input {
 namespace {
@@ -37,7 +38,7 @@ std::optional<ButtonEdge> AcceptedInput::edge_of(Kind kind) {
   return std::nullopt;
 }
 
-struct Feed::Hand {
+struct InputFilter::Hand {
   SampleGate gate;
   PoseFilter smoothing;
   DeadBand dead_band;
@@ -49,7 +50,7 @@ struct Feed::Hand {
   std::size_t tracker_moves = 0;
 };
 
-Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings, Prediction prediction)
+InputFilter::InputFilter(simulation::Simulation& simulation, const InputSettings& settings, Prediction prediction)
     : simulation_(simulation) {
   const double dropout_after = simulation.settings().dropout_after;
   const Hand hand{SampleGate(settings, dropout_after),
@@ -64,33 +65,38 @@ Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings, Pr
   hands_.assign(simulation.hands(), hand);
 }
 
-Feed::~Feed() = default;
+InputFilter::~InputFilter() = default;
 
-const GateCounts& Feed::gate_counts(std::size_t hand) const { return hands_.at(hand).gate.counts(); }
-const ReacquisitionCounts& Feed::reacquisition_counts(std::size_t hand) const {
-  return hands_.at(hand).reacquisition.counts();
+const InputFilter::Hand& InputFilter::hand_at(std::size_t index) const {
+  return validation::element(hands_, index, "hand");
+}
+InputFilter::Hand& InputFilter::hand_at(std::size_t index) { return validation::element(hands_, index, "hand"); }
+
+const GateCounts& InputFilter::gate_counts(std::size_t hand) const { return hand_at(hand).gate.counts(); }
+const ReacquisitionCounts& InputFilter::reacquisition_counts(std::size_t hand) const {
+  return hand_at(hand).reacquisition.counts();
 }
 
-std::size_t Feed::tracker_moves(std::size_t hand) const { return hands_.at(hand).tracker_moves; }
+std::size_t InputFilter::tracker_moves(std::size_t hand) const { return hand_at(hand).tracker_moves; }
 
-GateResult Feed::push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
-                             std::size_t hand) {
-  const GateResult result = hands_.at(hand).gate.offer(sample);
+GateResult InputFilter::push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
+                                    std::size_t hand) {
+  const GateResult result = hand_at(hand).gate.offer(sample);
   if (usable(result)) follow({sample.t, make_transform(sample.p, sample.q)}, result, &X_WP, arrival, hand);
   return result;
 }
 
-GateResult Feed::push_stylus(const motion::PoseSample& sample, std::size_t hand, double quaternion_norm) {
+GateResult InputFilter::push_stylus(const motion::PoseSample& sample, std::size_t hand, double quaternion_norm) {
   const Quaterniond q(quaternion_norm * Quaterniond(sample.X.linear()).coeffs());
-  const GateResult result = hands_.at(hand).gate.offer({sample.t, sample.X.translation(), q});
+  const GateResult result = hand_at(hand).gate.offer({sample.t, sample.X.translation(), q});
   if (usable(result)) follow(sample, result, nullptr, {}, hand);
   return result;
 }
 
 /// `X_WP`: null if the sample is in world.
-void Feed::follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP,
-                  const LocalTime& arrival, std::size_t hand) {
-  Hand& input = hands_.at(hand);
+void InputFilter::follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP,
+                         const LocalTime& arrival, std::size_t hand) {
+  Hand& input = hand_at(hand);
   const bool tracker_moved = X_WP != nullptr && input.X_WP && input.X_WP->matrix() != X_WP->matrix();
   if (X_WP != nullptr) input.X_WP = *X_WP;
   input.tracker_moves += tracker_moved ? 1 : 0;
@@ -113,38 +119,39 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
   input.playout.sample(sample.t, arrival);  // even if it is late: later samples may still arrive
 }
 
-void Feed::report_arrival(const LocalTime& arrival, std::size_t hand) {
-  hands_.at(hand).playout.report_arrival(arrival);
+void InputFilter::report_arrival(const LocalTime& arrival, std::size_t hand) {
+  hand_at(hand).playout.report_arrival(arrival);
 }
 
-void Feed::restart_gate(std::size_t hand) {
-  hands_.at(hand).gate.restart();
-  hands_.at(hand).smoothing.restart();
-  hands_.at(hand).dead_band.restart();
+void InputFilter::restart_gate(std::size_t hand) {
+  Hand& input = hand_at(hand);
+  input.gate.restart();
+  input.smoothing.restart();
+  input.dead_band.restart();
 }
 
-void Feed::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {
-  hands_.at(hand).playout.buttons(t, arrival);
+void InputFilter::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {
+  hand_at(hand).playout.buttons(t, arrival);
 }
 
-void Feed::push_edge(double t, motion::ButtonEdge edge, std::size_t hand) {
+void InputFilter::push_edge(double t, motion::ButtonEdge edge, std::size_t hand) {
   simulation_.push_edge(t, edge, hand);
   note(AcceptedInput::kind_of(edge), hand, t);
 }
 
-void Feed::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
+void InputFilter::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
   simulation_.push_external_wrench(sample, hand);
   if (record_)
     record_({Kind::external_wrench, hand, sample.t, RigidTransform::Identity(), sample, committed(), target()});
 }
 
-void Feed::note(AcceptedInput::Kind kind, std::size_t hand, double t, const RigidTransform& X_WS) const {
+void InputFilter::note(AcceptedInput::Kind kind, std::size_t hand, double t, const RigidTransform& X_WS) const {
   if (record_) record_({kind, hand, t, X_WS, {}, committed(), target()});
 }
 
-double Feed::committed() const { return began_ ? simulation_.time() : kNever; }
+double InputFilter::committed() const { return began_ ? simulation_.time() : kNever; }
 
-std::optional<double> Feed::next_stop(const LocalTime& now) const {
+std::optional<double> InputFilter::next_stop(const LocalTime& now) const {
   if (target_) return target_;
   double known = -kNever, rests = kNever;
   for (const Hand& hand : hands_) {
@@ -159,7 +166,7 @@ std::optional<double> Feed::next_stop(const LocalTime& now) const {
   return silent && step_end <= rests ? std::make_optional(step_end) : std::nullopt;
 }
 
-simulation::AdvanceReport Feed::advance_to(double t, double pause) {
+simulation::AdvanceReport InputFilter::advance_to(double t, double pause) {
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     while (const auto release = hands_[hand].reacquisition.take_release(t)) releases_.emplace(*release, hand);
   }
@@ -185,21 +192,21 @@ simulation::AdvanceReport Feed::advance_to(double t, double pause) {
   return report;
 }
 
-void Feed::predict(double t, simulation::Simulation& copy) const {
+void InputFilter::predict(double t, simulation::Simulation& copy) const {
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     if (!hands_[hand].ahead) continue;
     for (const motion::PoseSample& sample : hands_[hand].ahead->continuation(t)) copy.push_stylus(sample, hand);
   }
 }
 
-double Feed::time_since_arrival(const LocalTime& now) const {
+double InputFilter::time_since_arrival(const LocalTime& now) const {
   const auto newest = std::max_element(hands_.begin(), hands_.end(), [](const Hand& a, const Hand& b) {
     return a.playout.newest() < b.playout.newest();
   });
   return std::isfinite(newest->playout.newest()) ? newest->playout.time_since_arrival(now) : 0.0;
 }
 
-void Feed::restart() {
+void InputFilter::restart() {
   for (Hand& hand : hands_) {
     hand.playout.clear();
     hand.reacquisition.restart();
