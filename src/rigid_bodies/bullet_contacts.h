@@ -7,8 +7,7 @@
 
 namespace spring_workbench::rigid_bodies {
 
-/// A shape with a larger bounding box, by contact_margin, so that Bullet asks for its contacts before it overlaps
-/// anything.
+/// A shape with a bounding box larger by contact_margin: Bullet asks for its contacts before it overlaps anything.
 template <typename Shape>
 class WithMargin final : public Shape {
  public:
@@ -34,14 +33,20 @@ class DispatcherForSleepers final : public btCollisionDispatcher {
   bool contacts_missing = false;  ///< shapes overlap without a contact, or there was no room for a closed one
 };
 
-/// Bullet's configuration, but for contacts of boxes, which are those of `box_contacts`, and of all other shapes with
-/// each other and with planes, which are those of `solid_contacts`. Only two cylinders are left to Bullet. A shape has
-/// its `geometry::Solid` for its user pointer.
+/// Bullet's configuration with contacts of boxes by `box_contacts`, and of all other shapes and planes by
+/// `solid_contacts`; two cylinders are left to Bullet. A shape's user pointer is its `geometry::Solid`.
 class ContactConfiguration final : public btDefaultCollisionConfiguration {
  public:
+  ContactConfiguration() : btDefaultCollisionConfiguration(without_pools()) {}
   btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) override;
 
  private:
+  /// Pairs are allocated when they come near, not thousands in advance.
+  static btDefaultCollisionConstructionInfo without_pools() {
+    btDefaultCollisionConstructionInfo info;
+    info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 1;
+    return info;
+  }
   struct Create final : btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,

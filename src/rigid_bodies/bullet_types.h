@@ -8,9 +8,7 @@
 namespace spring_workbench::rigid_bodies {
 
 inline btVector3 to_bullet(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
-
 inline Vector3d from_bullet(const btVector3& v) { return Vector3d(v.x(), v.y(), v.z()); }
-
 /// [linear; angular].
 inline Vector6d both(const btVector3& linear, const btVector3& angular) {
   return (Vector6d() << from_bullet(linear), from_bullet(angular)).finished();
