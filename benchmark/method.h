@@ -20,7 +20,7 @@ struct RunResult {
   bool given_up = false;    ///< whether the run exceeded the time limit
   bool finite = false;      ///< whether it reached the end, finite and within 1000 m or rad
 
-  void exchange(math::StateArchive& state) { state(outputs, wall_seconds, steps_fallback, given_up, finite); }
+  void archive(math::StateArchive& state) { state(outputs, wall_seconds, steps_fallback, given_up, finite); }
 };
 
 /// Interface of a method that simulates the scenes: a baseline or one of our integrators.

@@ -22,7 +22,7 @@ struct RodRun {
   bool finite = false;
   bool given_up = false;  ///< whether the run exceeded the time limit
 
-  void exchange(math::StateArchive& state) { state(X_WO, wall_seconds, steps, steps_fallback, finite, given_up); }
+  void archive(math::StateArchive& state) { state(X_WO, wall_seconds, steps, steps_fallback, finite, given_up); }
 };
 
 /// Converts the run to the result of a method on a scene; empty outputs if it is not finite.

@@ -90,7 +90,7 @@ void bind_tool(py::module& module) {
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object, in world [J].")
       .def_readonly("error_bound", &ToolState::error_bound,
                     "Bound of the error of integration in position [m], accumulated since the grasp or since the last "
-                    "step without a bound. It is an estimate from above, not rigorous. None in contact, or if the "
+                    "step without a bound. It is an upper estimate, not rigorous. None in contact, or if the "
                     "setting `error_bound` is off.")
       .def_readonly("weight", &ToolState::weight,
                     "Reading as a scale [vkg: virtual kg]: upward force on the object divided by g.")
@@ -147,8 +147,8 @@ the step or, in contact, the object stays in place (`steps_rejected`). If these 
 `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step may take several
 integrations.
 
-An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate of an
-error from above, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
+An error is the result minus the exact solution of the equation of motion. An error bound is an empirical upper
+estimate, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
 steps_among_movable are in C++ only.)")
       .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
       .def_readonly("substeps", &AdvanceReport::substeps,

@@ -165,7 +165,7 @@ class ToolState:
     @property
     def error_bound(self) -> Optional[float]:
         """Bound of the error of integration in position [m], accumulated since the grasp or since the last step without
-        a bound. It is an estimate from above, not rigorous. None in contact, or if the setting `error_bound` is off."""
+        a bound. It is an upper estimate, not rigorous. None in contact, or if the setting `error_bound` is off."""
     @property
     def weight(self) -> float:
         """Reading as a scale [vkg: virtual kg]: upward force on the object divided by g."""
@@ -236,8 +236,8 @@ class AdvanceReport:
     `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step
     may take several integrations.
 
-    An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
-    of an error from above, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
+    An error is the result minus the exact solution of the equation of motion. An error bound is an empirical upper
+    estimate, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
     steps_among_movable are in C++ only."""
     @property
     def steps(self) -> int:

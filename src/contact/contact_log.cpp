@@ -108,7 +108,7 @@ void ContactLog::take(std::size_t object, const ContactLog& from, std::size_t it
   if (const auto recent = from.recent_.find(its); recent != from.recent_.end()) recent_[object] = recent->second;
 }
 
-void ContactLog::exchange(math::StateArchive& state) {
+void ContactLog::archive(math::StateArchive& state) {
   for (const std::size_t object : with_contacts_) {
     if (state.is_restoring()) touching_[object].clear();
   }

@@ -206,7 +206,7 @@ rigid_bodies::DrivenBody DynamicStepper::driven_body(const Candidate& c, double 
   return d;
 }
 
-void DynamicStepper::exchange(math::StateArchive& state) { state(contacts_, held_, load_W_, substep_, *world_); }
+void DynamicStepper::archive(math::StateArchive& state) { state(contacts_, held_, load_W_, substep_, *world_); }
 
 void DynamicStepper::set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W) {
   world_->place(body, X_WO, V_WO_W, true);

@@ -14,7 +14,7 @@ void ActiveCoordinates::take_modes() {
   }
 }
 
-void ActiveCoordinates::exchange(math::StateArchive& state) {
+void ActiveCoordinates::archive(math::StateArchive& state) {
   state(mode_, return_);
   if (state.is_restoring()) take_modes();
 }

@@ -19,7 +19,7 @@ class Exponential::Core {
   virtual void propagate_deviation(StrainState& deviation) const = 0;
   virtual void propagate_run_error(const HeldBody& body, RunError& error) = 0;
   virtual StepWork work(const HeldBody& body) const = 0;
-  virtual void exchange(math::StateArchive& state) = 0;
+  virtual void archive(math::StateArchive& state) = 0;
 };
 
 template <int n>
@@ -62,7 +62,7 @@ class Exponential::CoreOf final : public Core {
   void propagate_run_error(const HeldBody& body, RunError& run) override { follow_error(body, run); }
   StepWork work(const HeldBody& body) const override { return work_of(body, steps_); }
 
-  void exchange(math::StateArchive& state) override {
+  void archive(math::StateArchive& state) override {
     state(version_);
     if (version_ >= 0) state(steps_, refactorisation_);  // otherwise nothing has been derived from the equations yet
   }
@@ -132,10 +132,10 @@ std::optional<StepWork> Exponential::work(const HeldBody& body) const {
   return body.size() > 0 ? std::optional(core_->work(body)) : std::nullopt;
 }
 
-void Exponential::exchange(math::StateArchive& state) {
+void Exponential::archive(math::StateArchive& state) {
   int n = n_;
   state(n);
-  if (n > 0) return core(n).exchange(state);
+  if (n > 0) return core(n).archive(state);
   core_.reset();
   n_ = 0;
 }

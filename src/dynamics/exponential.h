@@ -31,7 +31,7 @@ class Exponential final : public Integrator {
   void propagate_run_error(const HeldBody& body, RunError& error) override;
   std::optional<StepWork> work(const HeldBody& body) const override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
-  void exchange(math::StateArchive& state) override;
+  void archive(math::StateArchive& state) override;
   bool restores_completely() const override { return true; }
 
  private:

@@ -21,7 +21,7 @@ void HeldBody::changed() {
   derive();
 }
 
-void HeldBody::exchange(math::StateArchive& state) {
+void HeldBody::archive(math::StateArchive& state) {
   state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, load_W_, loaded_,
         couplings_);
   if (state.is_restoring()) derive();

@@ -25,7 +25,7 @@ struct ModalDecomposition {
   exponential::ModalRates rates;    ///< [1/s]
   double fastest = 0.0;             ///< largest |rate|
 
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(q_reference, stiffness, damping, inverse_mass, mass, to_undamped, amplitude_rates, by_wrench, by_handle,
           to_modes, from_modes, rates, fastest);
   }

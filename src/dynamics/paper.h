@@ -26,7 +26,7 @@ class Paper final : public Integrator {
   void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
-  void exchange(math::StateArchive& state) override { state(version_, t_, from_, target_, shared_); }
+  void archive(math::StateArchive& state) override { state(version_, t_, from_, target_, shared_); }
 
  private:
   long version_ = -1;                ///< of the equations to which the other members belong

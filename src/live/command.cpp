@@ -59,7 +59,7 @@ std::string make(const Command& command, simulation::Simulation& simulation) {
 std::vector<std::uint64_t> Command::words() const {
   if (kind == Kind::none) return {};
   math::StateArchive archive;
-  Command(*this).exchange(archive);
+  Command(*this).archive(archive);
   return std::move(archive).words();
 }
 
@@ -68,7 +68,7 @@ Command Command::from(const std::vector<std::uint64_t>& words) {
   if (words.empty()) return command;
   math::StateArchive archive(words);
   try {
-    command.exchange(archive);
+    command.archive(archive);
     if (archive.at_end()) return command;
   } catch (const std::out_of_range&) {
   }
@@ -77,7 +77,7 @@ Command Command::from(const std::vector<std::uint64_t>& words) {
       "one that was recorded in ~changes, got " + std::to_string(words.size()) + " words that cannot be decoded");
 }
 
-void Command::exchange(math::StateArchive& state) {
+void Command::archive(math::StateArchive& state) {
   state(kind, hand, tool, on, places);
   state(fork_change.dofs, fork_change.stiffness, fork_change.damping_ratio, fork_change.damping_coefficient,
         fork_change.damping_law, fork_change.damping);

@@ -97,7 +97,7 @@ void PoseTrack::clear() {
   current_valid_ = false;
 }
 
-void PoseTrack::exchange(math::StateArchive& state) {
+void PoseTrack::archive(math::StateArchive& state) {
   state(nodes_);
   if (state.is_restoring()) current_valid_ = false;
 }

@@ -238,7 +238,7 @@ std::vector<std::size_t> Objects::Archive::moved() const {
   return moved;
 }
 
-void Objects::Archive::exchange(math::StateArchive& state) {
+void Objects::Archive::archive(math::StateArchive& state) {
   const std::vector<std::size_t> present = moved();
   std::vector<std::size_t> kept = present;
   state(kept);
@@ -247,10 +247,10 @@ void Objects::Archive::exchange(math::StateArchive& state) {
     of_.take_state(present[k], {of_.body(present[k]).X_WO, Twist(), {}});
     of_.states_[present[k]] = bodies::at_start(of_.body(present[k]));
   }
-  exchange(state, kept);
+  archive(state, kept);
 }
 
-void Objects::Archive::exchange(math::StateArchive& state, const std::vector<std::size_t>& some) {
+void Objects::Archive::archive(math::StateArchive& state, const std::vector<std::size_t>& some) {
   for (const std::size_t i : some) {
     Object& object = of_.objects_.at(i);
     bool flies = object.free_body != nullptr;

@@ -9,13 +9,13 @@
 #include "bullet_world.h"
 
 // Beside Bullet's types, where the archive looks for them.
-static void exchange_state(spring_workbench::math::StateArchive& state, btVector3& v) { state(v[0], v[1], v[2]); }
+static void archive_state(spring_workbench::math::StateArchive& state, btVector3& v) { state(v[0], v[1], v[2]); }
 
-static void exchange_state(spring_workbench::math::StateArchive& state, btTransform& X) {
+static void archive_state(spring_workbench::math::StateArchive& state, btTransform& X) {
   state(X.getBasis()[0], X.getBasis()[1], X.getBasis()[2], X.getOrigin());
 }
 
-static void exchange_state(spring_workbench::math::StateArchive& state, btManifoldPoint& p) {
+static void archive_state(spring_workbench::math::StateArchive& state, btManifoldPoint& p) {
   state(p.m_localPointA, p.m_localPointB, p.m_positionWorldOnB, p.m_positionWorldOnA, p.m_normalWorldOnB,
         p.m_lateralFrictionDir1, p.m_lateralFrictionDir2, p.m_distance1, p.m_combinedFriction,
         p.m_combinedRollingFriction, p.m_combinedSpinningFriction, p.m_combinedRestitution, p.m_partId0, p.m_partId1,
@@ -49,7 +49,7 @@ struct Pair {
   int a = 0, b = 0;
   bool has_algorithm = false;
   int parts = 0;
-  void exchange(math::StateArchive& state) { state(a, b, has_algorithm, parts); }
+  void archive(math::StateArchive& state) { state(a, b, has_algorithm, parts); }
 };
 
 /// How many pairs of parts of the two bodies' shapes are near each other, or may have contacts.
@@ -79,7 +79,7 @@ btRigidBody& BulletWorld::object(int index) {
   return index < 0 ? *bench_body_ : *items_.at(static_cast<std::size_t>(index)).bullet;
 }
 
-void BulletWorld::exchange(math::StateArchive& state) {
+void BulletWorld::archive(math::StateArchive& state) {
   std::vector<int> objects;  // in Bullet's order
   for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
     objects.push_back(world_.getCollisionObjectArray()[i]->getUserIndex());
@@ -99,13 +99,13 @@ void BulletWorld::exchange(math::StateArchive& state) {
       world_.addRigidBody(&object(index));
     }
   }
-  for (const int index : objects) exchange_body(state, index);
-  exchange_pairs(state, objects);
-  exchange_manifolds(state);
-  exchange_broadphase(state, objects);
+  for (const int index : objects) archive_body(state, index);
+  archive_pairs(state, objects);
+  archive_manifolds(state);
+  archive_broadphase(state, objects);
 }
 
-void BulletWorld::exchange_body(math::StateArchive& state, int index) {
+void BulletWorld::archive_body(math::StateArchive& state, int index) {
   btRigidBody& body = object(index);
   btVector3 v = body.getLinearVelocity(), w = body.getAngularVelocity();
   btVector3 v_next = body.getInterpolationLinearVelocity(), w_next = body.getInterpolationAngularVelocity();
@@ -124,7 +124,7 @@ void BulletWorld::exchange_body(math::StateArchive& state, int index) {
   body.setDeactivationTime(slow_for);
 }
 
-void BulletWorld::exchange_pairs(math::StateArchive& state, const std::vector<int>& objects) {
+void BulletWorld::archive_pairs(math::StateArchive& state, const std::vector<int>& objects) {
   btOverlappingPairCache& cache = *broadphase_.getOverlappingPairCache();
   std::vector<Pair> pairs;
   const btBroadphasePairArray& present = cache.getOverlappingPairArray();
@@ -170,7 +170,7 @@ void BulletWorld::find_contacts_of(btBroadphasePair& pair, int parts) {
   look();
 }
 
-void BulletWorld::exchange_manifolds(math::StateArchive& state) {
+void BulletWorld::archive_manifolds(math::StateArchive& state) {
   std::vector<btPersistentManifold*> left, ordered;
   for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) left.push_back(dispatcher_.getManifoldByIndexInternal(m));
   std::size_t count = left.size();
@@ -202,7 +202,7 @@ void BulletWorld::exchange_manifolds(math::StateArchive& state) {
   dispatcher_.set_order(ordered);
 }
 
-void BulletWorld::exchange_broadphase(math::StateArchive& state, const std::vector<int>& objects) {
+void BulletWorld::archive_broadphase(math::StateArchive& state, const std::vector<int>& objects) {
   for (btDbvtProxy*& root : broadphase_.m_stageRoots) {
     std::vector<int> stage;
     for (const btDbvtProxy* proxy = root; !state.is_restoring() && proxy != nullptr; proxy = proxy->links[1]) {
@@ -219,19 +219,19 @@ void BulletWorld::exchange_broadphase(math::StateArchive& state, const std::vect
       last = proxy;
     }
   }
-  for (btDbvt& tree : broadphase_.m_sets) exchange_tree(state, tree, objects);
+  for (btDbvt& tree : broadphase_.m_sets) archive_tree(state, tree, objects);
   btDbvtBroadphase& b = broadphase_;
   state(b.m_stageCurrent, b.m_newpairs, b.m_fixedleft, b.m_updates_call, b.m_updates_done, b.m_updates_ratio, b.m_pid,
         b.m_cid, b.m_gid, b.m_needcleanup);
 }
 
-void BulletWorld::exchange_tree(math::StateArchive& state, btDbvt& tree, const std::vector<int>& objects) {
+void BulletWorld::archive_tree(math::StateArchive& state, btDbvt& tree, const std::vector<int>& objects) {
   const bool sets = state.is_restoring();
   int leaves = tree.m_root == nullptr ? 0 : tree.m_leaves;
   state(leaves);
   if (sets) tree.clear();
   if (sets) tree.m_leaves = leaves;
-  const std::function<void(btDbvtNode*&, btDbvtNode*)> exchange_node = [&](btDbvtNode*& node, btDbvtNode* parent) {
+  const std::function<void(btDbvtNode*&, btDbvtNode*)> archive_node = [&](btDbvtNode*& node, btDbvtNode* parent) {
     constexpr int internal = -2;
     int index = sets || node->isinternal() ? internal : index_of(*static_cast<btDbvtProxy*>(node->data));
     state(index);
@@ -241,7 +241,7 @@ void BulletWorld::exchange_tree(math::StateArchive& state, btDbvt& tree, const s
     }
     state(node->volume.tMins(), node->volume.tMaxs());
     if (index == internal) {
-      for (btDbvtNode*& child : node->childs) exchange_node(child, node);
+      for (btDbvtNode*& child : node->childs) archive_node(child, node);
     } else if (sets) {
       if (std::find(objects.begin(), objects.end(), index) == objects.end())
         throw std::out_of_range("the collision tree refers to an unknown body");
@@ -250,7 +250,7 @@ void BulletWorld::exchange_tree(math::StateArchive& state, btDbvt& tree, const s
       proxy_of(object(index)).leaf = node;
     }
   };
-  if (leaves > 0) exchange_node(tree.m_root, nullptr);
+  if (leaves > 0) archive_node(tree.m_root, nullptr);
 }
 
 }  // namespace spring_workbench::rigid_bodies

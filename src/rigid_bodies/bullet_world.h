@@ -66,7 +66,7 @@ class BulletWorld final : public RigidWorld {
   }
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
-  void exchange(math::StateArchive& state) override;
+  void archive(math::StateArchive& state) override;
 
  private:
   struct Item {
@@ -117,14 +117,14 @@ class BulletWorld final : public RigidWorld {
   void take_states(double h);
   void take_contacts(double h);
   btRigidBody& object(int index);  ///< by user index; the bench's is −1
-  // Parts of exchange(); `objects` by user index, in Bullet's order.
-  void exchange_body(math::StateArchive& state, int index);
-  void exchange_pairs(math::StateArchive& state, const std::vector<int>& objects);
+  // Parts of archive(); `objects` by user index, in Bullet's order.
+  void archive_body(math::StateArchive& state, int index);
+  void archive_pairs(math::StateArchive& state, const std::vector<int>& objects);
   /// Finds the contacts of a pair of bodies, with at least `parts` pairs of parts of their shapes.
   void find_contacts_of(btBroadphasePair& pair, int parts);
-  void exchange_manifolds(math::StateArchive& state);
-  void exchange_broadphase(math::StateArchive& state, const std::vector<int>& objects);
-  void exchange_tree(math::StateArchive& state, btDbvt& tree, const std::vector<int>& objects);
+  void archive_manifolds(math::StateArchive& state);
+  void archive_broadphase(math::StateArchive& state, const std::vector<int>& objects);
+  void archive_tree(math::StateArchive& state, btDbvt& tree, const std::vector<int>& objects);
   bool awake(const Item& item) const {
     return item.in_world && item.movable && (item.driven || (item.bullet->isActive() && !item.massless));
   }

@@ -203,7 +203,7 @@ struct ChildLink {
   const char* name = joint.Attribute("name");
   validation::refuse(validation::one_line(place(path, joint.Row()) + ": joint '" + (name != nullptr ? name : "") + "'"),
                      "child", validation::one_line(end_of(joint, "child")),
-                     "a link that is the child of no other joint, and not an ancestor of its parent");
+                     "a link that is the child of no other joint, without loops");
 }
 
 /// Refuses links that do not form a tree: urdfdom accepts loops, but then walks them endlessly and never frees them.

@@ -35,9 +35,9 @@ void Hand::continue_from(Hand& before, const std::string& new_mass, double now) 
   const std::unique_ptr<tools::ToolHold> old = held == new_mass ? std::move(before.hold_) : nullptr;
   before.grasp_.object = objects_.find(held).value_or(0);
   math::StateArchive taken;
-  before.exchange(taken, now);
+  before.archive(taken, now);
   math::StateArchive given(taken.words());
-  exchange(given, now);
+  archive(given, now);
   if (!old) return;
   const bool pulls = had_mass && !objects_.massless(grasp_.object);
   if (!pulls) grasp_ = grasp_of(grasp_.object);
@@ -252,7 +252,7 @@ tools::ToolState Hand::state(double now) const {
   return f;
 }
 
-void Hand::exchange(math::StateArchive& state, double now) {
+void Hand::archive(math::StateArchive& state, double now) {
   bool holds = hold_ != nullptr, touches = probe_ != nullptr;
   std::size_t touched = scene_.bodies.size();  // default: the bench
   if (touches && probe_->body() != nullptr) touched = static_cast<std::size_t>(probe_->body() - scene_.bodies.data());

@@ -92,7 +92,7 @@ class Hand {
   tools::ToolState state(double now) const;
 
   /// Saves or restores the state between two calls of `advance`; settings and objects have to be exchanged first.
-  void exchange(math::StateArchive& state, double now);
+  void archive(math::StateArchive& state, double now);
 
  private:
   /// Grasping as in the paper, section 5: insert the fork, adjust it, press and hold, release. A press outside any

@@ -186,12 +186,12 @@ struct Simulation::Impl {
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
   void step(double end, AdvanceReport& report);
   /// Saves or restores the state. `some`: only these objects; null: all.
-  void exchange(math::StateArchive& state, const std::vector<std::size_t>* some = nullptr);
+  void archive(math::StateArchive& state, const std::vector<std::size_t>* some = nullptr);
   void set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some = nullptr);
   /// The same; throws InputError, and changes nothing, if they are not a state.
   void restore(const math::StateArchive::Words& words);
   /// Saves or restores time and the hands' input.
-  void exchange_input(math::StateArchive& state);
+  void archive_input(math::StateArchive& state);
   /// The given scene with these edits; nothing if they are the present ones.
   std::optional<Simulation> with_edits(const std::vector<ObjectEdit>& next,
                                        const std::vector<std::string>& roots) const;
@@ -345,7 +345,7 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   const AdvanceReport so_far = report;
   Slipping slipping;
   math::StateArchive start;
-  if (limited) exchange(start);
+  if (limited) archive(start);
   carry(h, slipping, report);
   for (Slipping more; limited && !(more = beyond_limits(slipping)).empty();) {
     set(start.words());
@@ -358,7 +358,7 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
       });
     }
     start = math::StateArchive();
-    exchange(start);
+    archive(start);
     carry(h, slipping, report);
   }
   now = end;
@@ -384,35 +384,35 @@ void Simulation::Impl::advance(double t_end, double pause, AdvanceReport& report
   fill_subsystems(report);
 }
 
-void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std::size_t>* some) {
+void Simulation::Impl::archive(math::StateArchive& state, const std::vector<std::size_t>* some) {
   std::vector<ObjectEdit> same = edits;
   state(same, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
         settings.dynamics.error_bound);
   if (!(same == edits)) throw std::out_of_range("it was saved after other edits of the scene");
   objects::Objects::Archive of_objects(objects);
-  some != nullptr ? of_objects.exchange(state, *some) : of_objects.exchange(state);
-  for (Hand& hand : hands) hand.exchange(state, now);
+  some != nullptr ? of_objects.archive(state, *some) : of_objects.archive(state);
+  for (Hand& hand : hands) hand.archive(state, now);
 }
 
 void Simulation::Impl::set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some) {
   math::StateArchive state(words);
-  exchange(state, some);
-  if (!state.at_end()) throw std::out_of_range("it has more numbers than this simulation");
+  archive(state, some);
+  if (!state.at_end()) throw std::out_of_range("too many numbers");
 }
 
-void Simulation::Impl::exchange_input(math::StateArchive& state) {
+void Simulation::Impl::archive_input(math::StateArchive& state) {
   state(now, requested_time, started);
   for (Hand& hand : hands) state(hand.stylus());
 }
 
 void Simulation::Impl::restore(const math::StateArchive::Words& words) {
   math::StateArchive present;
-  exchange(present);
+  archive(present);
   try {
     set(words);
   } catch (const std::exception& error) {
     set(present.words());
-    throw validation::InputError(std::string("state: not a state of this simulation: ") + error.what());
+    throw validation::InputError(std::string("state: does not fit this simulation: ") + error.what());
   }
 }
 
@@ -628,7 +628,7 @@ ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
 
 SimulationState Simulation::save() const {
   math::StateArchive archive(impl_->words_of_state);
-  impl_->exchange(archive);
+  impl_->archive(archive);
   SimulationState state;
   state.origin_ = impl_->origin;
   state.styluses_ = impl_->settings.styluses;
@@ -651,14 +651,14 @@ std::optional<Simulation> Simulation::prepare_rewind(const SimulationState& stat
 
 void Simulation::rewind_to(const SimulationState& state, std::optional<Simulation>& next) {
   math::StateArchive input;
-  impl_->exchange_input(input);
+  impl_->archive_input(input);
   if (next) {
     std::swap(*this, *next);
   } else {
     restore_at_rest(state, *this);
   }
   math::StateArchive kept(input.words());
-  impl_->exchange_input(kept);
+  impl_->archive_input(kept);
   impl_->objects.begin(impl_->now);
 }
 
@@ -667,7 +667,7 @@ void Simulation::copy_state_from(const Simulation& other) {
   bodies::ChangeLog &own = impl_->objects.changes(), &others = other.impl_->objects.changes();
   const std::vector<std::size_t> differing = own.differing(others);
   math::StateArchive archive;
-  other.impl_->exchange(archive, &differing);
+  other.impl_->archive(archive, &differing);
   impl_->set(archive.words(), &differing);
   own.mark_equal_to(others);
 }

@@ -88,7 +88,7 @@ StepControl::StepControl(std::unique_ptr<dynamics::Integrator> integrator, doubl
   }
 }
 
-void StepControl::exchange(math::StateArchive& state) {
+void StepControl::archive(math::StateArchive& state) {
   state(*integrator_);
   if (companion_ != nullptr) state(*companion_);
 }

@@ -139,7 +139,7 @@ void ForkBody::restore(const bodies::TrialStart& start) {
   load_response_.begin_step(held_.size());
 }
 
-void ForkBody::exchange(math::StateArchive& state) {
+void ForkBody::archive(math::StateArchive& state) {
   state(held_, coupling_, control_, X_SH_, hand_, state_, estimates_, sleep_, load_W_);
   if (!state.is_restoring()) return;
   known_.reset();

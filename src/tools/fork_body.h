@@ -71,7 +71,7 @@ class ForkBody : public ToolHold {
   void describe(bool massless, ToolState& state) const override;
 
   stepping::StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
-  void exchange(math::StateArchive& state) override;
+  void archive(math::StateArchive& state) override;
 
  protected:  // for tools that replace the rod by another spring
   dynamics::HeldBody& held() { return held_; }
@@ -92,7 +92,7 @@ class ForkBody : public ToolHold {
     stepping::StepControl::Memory stepping;
     std::optional<Wrench> pull_W;  ///< wrench on the object at its centre, if it was shared in the last step
 
-    void exchange(math::StateArchive& state) { state(t, strain, proxy, energy_added, stepping, pull_W); }
+    void archive(math::StateArchive& state) { state(t, strain, proxy, energy_added, stepping, pull_W); }
   };
   void take_hand(const motion::MotionSegment& hand) {
     hand_ = hand;
@@ -148,7 +148,7 @@ class ForkBody : public ToolHold {
   struct Sleep {
     long version = -1;  ///< version of the equations; −1: awake
     RigidTransform X_WH = RigidTransform::Identity();
-    void exchange(math::StateArchive& state) { state(version, X_WH); }
+    void archive(math::StateArchive& state) { state(version, X_WH); }
   };
   Sleep sleep_;
   Wrench load_W_;

@@ -24,7 +24,7 @@ class ForkCoupling final : public dynamics::Coupling {
             dynamics::Pull<math::Pack>& pull) const override;
   Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
   void begin_step() const override;
-  void exchange(math::StateArchive& state) { state(since_); }
+  void archive(math::StateArchive& state) { state(since_); }
   /// State of the fork for a motion of the object relative to its handle.
   struct Following {
     dynamics::StrainState strain;

@@ -163,8 +163,8 @@ RigidTransform SpringBody::slip(double h, const motion::MotionState& object, con
   return X_WS;
 }
 
-void SpringBody::exchange(math::StateArchive& state) {
-  ForkBody::exchange(state);
+void SpringBody::archive(math::StateArchive& state) {
+  ForkBody::archive(state);
   state(spring_, rest_, hand_, slipped_W_);
 }
 

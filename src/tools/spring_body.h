@@ -24,7 +24,7 @@ class SpringCoupling final : public dynamics::Coupling {
   void pull(const math::Pack& t, const dynamics::RelativeMotion<math::Pack>& A_O,
             dynamics::Pull<math::Pack>& pull) const override;
   Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
-  void exchange(math::StateArchive& state) { state(rest_length_, since_, version_, k_, c_); }
+  void archive(math::StateArchive& state) { state(rest_length_, since_, version_, k_, c_); }
 
  private:
   template <typename S>
@@ -69,7 +69,7 @@ class SpringBody final : public ForkBody {
   double length() const override { return spring_.rest_length(); }
   double elastic_energy() const override { return reading().springs.energy; }
   void describe(bool massless, ToolState& state) const override;
-  void exchange(math::StateArchive& state) override;
+  void archive(math::StateArchive& state) override;
 
  private:
   struct Reading {

@@ -26,7 +26,7 @@ class Counting : public dynamics::Integrator {
     ++steps;
     return own_->step(body, handle, t, h, state);
   }
-  void exchange(math::StateArchive& state) override { own_->exchange(state); }
+  void archive(math::StateArchive& state) override { own_->archive(state); }
 
  private:
   std::unique_ptr<dynamics::Integrator> own_ = dynamics::make_integrator(IntegratorKind::rk4);

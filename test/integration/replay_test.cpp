@@ -92,8 +92,8 @@ TEST_F(Replay, WarnsWhenTheIntegratorDidNotTakeTheSteps) {
   const Outcome unstable = run(command + "rk4 --set step=0.02");
   const YAML::Node summary = summary_of(unstable);
   EXPECT_GT(summary["steps_fallback"].as<int>(), summary["steps"].as<int>() / 100);
-  EXPECT_EQ(unstable.err, "warning: a fallback rule took " + summary["steps_fallback"].as<std::string>() +
-                              " integrations that the integrator could not take: decrease step, or set another "
+  EXPECT_EQ(unstable.err, "warning: the integrator failed in " + summary["steps_fallback"].as<std::string>() +
+                              " integrations, which the fallback rule then took: decrease step or choose another "
                               "integrator\n");
   EXPECT_EQ(run(command + "exponential --set step=0.02").err, "");
 }

@@ -125,7 +125,7 @@ class Study(unittest.TestCase):
         rospy.ServiceProxy("/manipulation/select_tool", SelectTool)(tool="ray", stylus=1)
         status, _, err = self.end(study)
         self.assertEqual(
-            (status, err), (1, "error: the tool was changed to ray during the trial, which does not count\n")
+            (status, err), (1, "error: the tool was changed to ray during the trial, so this trial does not count\n")
         )
         self.assertEqual(glob.glob(self.path("out/*.csv")), [])
 

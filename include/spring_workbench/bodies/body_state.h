@@ -22,7 +22,7 @@ struct BodyState {
   bool asleep = true;  ///< whether the object is at rest, and not simulated until something moves it
 
   /// Saves or restores all fields but the name.
-  void exchange(math::StateArchive& state) { state(X_WO, V_WO_W, held, highlighted, in_contact, asleep); }
+  void archive(math::StateArchive& state) { state(X_WO, V_WO_W, held, highlighted, in_contact, asleep); }
 };
 
 /// Returns whether all numbers of two states are the same, bit by bit.

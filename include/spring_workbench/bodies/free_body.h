@@ -24,7 +24,7 @@ class FreeBody final : public SteppedBody {
   bool reverses() const override { return true; }
   void block(double h) override;
 
-  void exchange(math::StateArchive& state) { state(state_.X_WO, state_.velocity, state_.angular_momentum); }
+  void archive(math::StateArchive& state) { state(state_.X_WO, state_.velocity, state_.angular_momentum); }
 
  private:
   struct State {

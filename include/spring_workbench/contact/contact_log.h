@@ -37,14 +37,14 @@ class ContactLog {
   const std::vector<ContactState>& reported() const { return reported_; }
 
   /// Saves or restores the contacts, between two calls of Simulation::advance_to().
-  void exchange(math::StateArchive& state);
+  void archive(math::StateArchive& state);
 
  private:
   /// Normal impulse between an object and another body in a step of `h`, which ended `age` before now [N·s, s].
   struct PastImpulse {
     std::string other;
     double impulse = 0.0, h = 0.0, age = 0.0;
-    void exchange(math::StateArchive& state) { state(other, impulse, h, age); }
+    void archive(math::StateArchive& state) { state(other, impulse, h, age); }
   };
   /// Notes the impulses of a step of `h` of `object`, whose contacts these are, and sets their forces [s].
   void set_forces(std::size_t object, double h, std::vector<ContactState>& contacts);

@@ -22,7 +22,7 @@ struct ContactRow {
   Vector3d load_W = Vector3d::Zero();     ///< force (impulse) on the body; in: assumed, out: solved
   Vector3d impulse_W = Vector3d::Zero();  ///< on the body in this step so far, of loads and impacts [N·s]
 
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(point.other, point.p_W, point.n_W, point.depth, lever_W, friction, compliance, gap, slip_W, load_W,
           impulse_W);
   }

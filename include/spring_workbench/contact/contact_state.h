@@ -24,7 +24,7 @@ struct ContactState {
   ContactPhase phase = ContactPhase::started;  ///< phase of the contact
 
   /// Saves or restores all fields.
-  void exchange(math::StateArchive& state) { state(object, other, p_W, n_W, depth, impulse, force, slip_speed, phase); }
+  void archive(math::StateArchive& state) { state(object, other, p_W, n_W, depth, impulse, force, slip_speed, phase); }
 };
 
 }  // namespace spring_workbench::contact

@@ -39,7 +39,7 @@ class DynamicStepper {
   const std::vector<rigid_bodies::WorldContact>& contacts() const { return contacts_; }
 
   /// Exchanges the state between two steps, including that of the world.
-  void exchange(math::StateArchive& state);
+  void archive(math::StateArchive& state);
 
  private:
   /// Motion of a held body over a substep under the contact load of the last one; the body is then at its end.

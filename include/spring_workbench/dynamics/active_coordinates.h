@@ -13,7 +13,7 @@ struct StrainState {
   rod::StrainVector q;      ///< strain coordinates
   rod::StrainVector q_dot;  ///< rates of the coordinates, each in the unit of its coordinate per second
 
-  void exchange(math::StateArchive& state) { state(q, q_dot); }  ///< saves or restores both
+  void archive(math::StateArchive& state) { state(q, q_dot); }  ///< saves or restores both
 };
 
 /// The active coordinates: the strain coordinates of a shape model that take part in an equation of motion. The
@@ -68,13 +68,13 @@ class ActiveCoordinates {
     }
   }
 
-  void exchange(math::StateArchive& state);  ///< saves or restores which coordinates are active or return
+  void archive(math::StateArchive& state);  ///< saves or restores which coordinates are active or return
 
  private:
   enum class Mode { active, off, returning };
   struct Return {
     double t0 = 0.0, time_constant = 1.0, q0 = 0.0, rate0 = 0.0;
-    void exchange(math::StateArchive& state) { state(t0, time_constant, q0, rate0); }
+    void archive(math::StateArchive& state) { state(t0, time_constant, q0, rate0); }
   };
   void take_modes();
 

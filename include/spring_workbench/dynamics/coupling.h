@@ -45,7 +45,7 @@ class Coupling {
     long version = 0;    ///< number of changes of the law since the grasp
     /// Whether two keys identify the same law.
     bool operator==(const Key& o) const { return since == o.since && version == o.version; }
-    void exchange(math::StateArchive& state) { state(since, version); }  ///< saves or restores both
+    void archive(math::StateArchive& state) { state(since, version); }  ///< saves or restores both
   };
 
   virtual ~Coupling() = default;
@@ -119,7 +119,7 @@ class Couplings {
   Reading read(double t, const RelativeMotions<double>& A_H, const RelativeMotion<double>& H_O,
                const RelativeMotion<double>& W_H) const;
 
-  void exchange(math::StateArchive& state) { state(keys_); }  ///< saves or restores the keys
+  void archive(math::StateArchive& state) { state(keys_); }  ///< saves or restores the keys
 
  private:
   std::vector<Attached> attached_;

@@ -160,7 +160,7 @@ class HeldBody {
 
   /// Saves or restores springs, DOFs, load and versions; shape, body and gravity must be the same. The history of an
   /// integrator is valid only for these versions, so it is saved together with them.
-  void exchange(math::StateArchive& state);
+  void archive(math::StateArchive& state);
 
  private:
   /// Jacobians of the velocity of O and of the angular velocity, axes of H, all coordinates.

@@ -19,7 +19,7 @@ struct StepEstimate {
 };
 
 /// Estimate of the error of a run (the state minus the exact solution of the equation of motion), with its uncertainty.
-/// Bounds that follow from it are empirical estimates from above, not rigorous (doc/model.md, "Error bound").
+/// Bounds derived from it are empirical upper estimates, not rigorous (doc/model.md, "Error bound").
 struct RunError {
   /// Symmetric matrix over the active coordinates and their rates.
   using Spread = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * rod::max_strain_coordinates,
@@ -50,7 +50,7 @@ class Integrator {
   /// Optional. Whether the step is stable at any stiffness. If not overridden: false, and a step that is not solved is
   /// repeated as shorter ones only with a tolerance; without one, an L-stable rule takes it.
   virtual bool stiffly_stable() const { return false; }
-  /// Effect of a method on the energy of a motion.
+  /// How the method changes the energy of a motion without damping; this decides which steps are accepted.
   enum class Energy {
     conserved,       ///< conserved up to an error; a step with too large an error is not accepted
     dissipated,      ///< partly lost, as by implicit methods of low order; a step that gains too much is not accepted
@@ -91,10 +91,10 @@ class Integrator {
   /// the implicit Euler rule.
   virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
 
-  /// Optional. Saves or restores the history. Override it to call `state(a_, b_)` with every member that step() keeps;
-  /// if one is forgotten, replay and restored runs differ silently. If not overridden: there is no history.
-  virtual void exchange(math::StateArchive&) {}
-  /// Optional. Whether exchange() restores everything that step() depends on, so that one integrator may be reused for
+  /// Optional. Saves or restores the history. Override it to call `state(a_, b_)` with all members that a later step()
+  /// uses; if one is forgotten, replay and restored runs differ silently. If not overridden: there is no history.
+  virtual void archive(math::StateArchive&) {}
+  /// Optional. Whether archive() restores everything that step() depends on, so that one integrator may be reused for
   /// another simulation by restoring that simulation's history. If not overridden: false.
   virtual bool restores_completely() const { return false; }
 };

@@ -20,7 +20,7 @@ struct DynamicsSettings {
   IntegratorKind integrator = IntegratorKind::exponential;  ///< method of integration (key `integrator`)
   double step = 0.02;        ///< key `step` [s], 1e-6 … 1: the largest step; a step also ends at every sample
   double tolerance = 0.0;    ///< key `tolerance` [m], 0 … 0.1: allowed error of the whole run; 0: fixed steps
-  bool error_bound = false;  ///< key `error_bound`: whether to estimate the run's error from above (doc/model.md)
+  bool error_bound = false;  ///< key `error_bound`: whether to bound the run's error (doc/model.md, "Error bound")
   Inertia inertia = Inertia::exact;  ///< inertia of the held object (key `inertia`)
 };
 

@@ -117,7 +117,7 @@ class CollocationStep {
     return {solved, error};
   }
 
-  void exchange(math::StateArchive& state) { state(propagator_, convergence_, history_); }
+  void archive(math::StateArchive& state) { state(propagator_, convergence_, history_); }
 
  private:
   static constexpr double rounding = 1e-15;  ///< relative rounding error of a step

@@ -56,7 +56,7 @@ class Convergence {
   /// Predicted sum of all changes after the first iteration, relative to the change of that iteration.
   double left_after_first() const { return left_at(rate_); }
 
-  void exchange(math::StateArchive& state) { state(rate_, squared_error_); }
+  void archive(math::StateArchive& state) { state(rate_, squared_error_); }
 
   static constexpr int max_iterations = 12;
   /// The iteration ends when further iterations would change less than the first fraction of the last step's

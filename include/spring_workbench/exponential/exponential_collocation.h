@@ -120,7 +120,7 @@ class ExponentialCollocation {
   }
 
   /// Exchanges linear part and step; the operators are recomputed from them when they are needed.
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(part_, lengths_, now_, oldest_);
     if (state.is_restoring()) known_.fill(false);
   }

@@ -38,7 +38,7 @@ class Extrapolation {
     return true;
   }
 
-  void exchange(math::StateArchive& state) { state(values_, h_, t_begin_); }
+  void archive(math::StateArchive& state) { state(values_, h_, t_begin_); }
 
  private:
   static constexpr double farthest = 1.5;  ///< largest distance beyond the end of the last step, in units of that step

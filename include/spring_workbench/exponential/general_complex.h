@@ -64,7 +64,7 @@ struct GeneralComplex {
     return of(0.5 * (above + below), 0.5 * (above - below));
   }
 
-  void exchange(math::StateArchive& state) { state(re, im, square); }
+  void archive(math::StateArchive& state) { state(re, im, square); }
 
  private:
   static double common_square(const GeneralComplex& a, const GeneralComplex& b) {

@@ -82,7 +82,7 @@ class LinearPart {
     return from_modes_ * x;
   }
 
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(modes_);
     if (state.is_restoring()) take_matrices();
   }

@@ -48,7 +48,7 @@ struct ModalRates {
     return a.pairs == b.pairs && a.singles == b.singles && a.of == b.of && a.cluster_sizes == b.cluster_sizes &&
            a.clusters.rows() == b.clusters.rows() && a.clusters == b.clusters;
   }
-  void exchange(math::StateArchive& state) { state(pairs, singles, of, clusters, cluster_sizes); }
+  void archive(math::StateArchive& state) { state(pairs, singles, of, clusters, cluster_sizes); }
 };
 
 }  // namespace spring_workbench::exponential

@@ -33,7 +33,7 @@ class Refactorisation {
   /// Counts the iterations of a step.
   void add(int iterations) { slow_iterations_ += std::max(0, iterations - fast_iterations); }
 
-  void exchange(math::StateArchive& state) { state(begin_, path_, steps_, slow_iterations_); }
+  void archive(math::StateArchive& state) { state(begin_, path_, steps_, slow_iterations_); }
 
   /// Distance from the strain of the linear part at which a new one is computed, in mean steps.
   static constexpr double max_steps_back = 50.0;

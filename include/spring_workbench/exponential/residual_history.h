@@ -32,7 +32,7 @@ class ResidualHistory {
     return true;
   }
 
-  void exchange(math::StateArchive& state) { state(smooth_); }
+  void archive(math::StateArchive& state) { state(smooth_); }
 
  private:
   Extrapolation<n> smooth_;

@@ -21,7 +21,7 @@ class Surfaces {
   /// Begins a step of `h` [s]; restores the indentations before it.
   void begin_step(double h);
   void undo_step() { indented_ = indented_before_; }
-  void exchange(math::StateArchive& state) { state(indented_); }
+  void archive(math::StateArchive& state) { state(indented_); }
   /// Returns the indentation of the surface between two bodies at the end of the last step [m].
   double indentation(std::size_t a, std::size_t b) const;
 

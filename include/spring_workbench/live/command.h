@@ -50,7 +50,7 @@ struct Command {
   static Command from(const std::vector<std::uint64_t>& words);
 
  private:
-  void exchange(math::StateArchive& state);
+  void archive(math::StateArchive& state);
 };
 
 /// Makes a change of any kind except `none`, `edit`, `load_scene` and `undo`. Throws InputError, and changes nothing,

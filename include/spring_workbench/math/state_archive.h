@@ -18,7 +18,7 @@
 namespace spring_workbench::math {
 
 /// Saves or restores the numbers of a state, always in the same order. A class lists the members that a step changes
-/// in one function, `exchange(StateArchive& state) { state(a_, b_); }`. This function both saves and restores, like
+/// in one function, `archive(StateArchive& state) { state(a_, b_); }`. This function both saves and restores, like
 /// `serialize` of Boost. An archive contains only numbers: no pointer, no padding, no capacity.
 class StateArchive {
  public:
@@ -40,26 +40,26 @@ class StateArchive {
   /// Saves or restores the next values of the state. Throws std::out_of_range if there are too few words.
   template <typename... Values>
   void operator()(Values&... values) {
-    (exchange(values), ...);
+    (archive(values), ...);
   }
 
   /// Saves or restores the size of a container with at least one word per element; `present` is its present size.
   /// Returns the size. Throws std::out_of_range if fewer words are left.
   std::size_t size(std::size_t present) {
-    exchange(present);
+    archive(present);
     if (is_restoring() && present > source_->size() - next_) throw std::out_of_range("state: ends too early");
     return present;
   }
 
  private:
-  void exchange_word(std::uint64_t& word) {
+  void archive_word(std::uint64_t& word) {
     if (!is_restoring()) {
       words_.push_back(word);
     } else {
       word = source_->at(next_++);
     }
   }
-  void exchange_numbers(double* numbers, Eigen::Index count) {
+  void archive_numbers(double* numbers, Eigen::Index count) {
     static_assert(sizeof(double) == sizeof(std::uint64_t));
     const auto size = static_cast<std::size_t>(count);
     if (size == 0) return;
@@ -74,33 +74,33 @@ class StateArchive {
   }
 
   template <typename T>
-  void exchange(T& value) {
+  void archive(T& value) {
     if constexpr (std::is_same_v<T, double>) {
       std::uint64_t word = 0;
       std::memcpy(&word, &value, sizeof word);
-      exchange_word(word);
+      archive_word(word);
       std::memcpy(&value, &word, sizeof word);
     } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
       auto word = static_cast<std::uint64_t>(value);
-      exchange_word(word);
+      archive_word(word);
       value = static_cast<T>(word);
     } else if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
       Eigen::Index rows = value.rows(), columns = value.cols();
       if constexpr (T::SizeAtCompileTime == Eigen::Dynamic) {
-        exchange(rows);
-        exchange(columns);
+        archive(rows);
+        archive(columns);
         if (is_restoring() && !fits<T>(rows, columns)) throw std::out_of_range("state: size of a matrix");
         value.resize(rows, columns);
       }
-      exchange_numbers(value.data(), rows * columns);
+      archive_numbers(value.data(), rows * columns);
     } else if constexpr (has_member<T>(nullptr)) {
-      value.exchange(*this);
+      value.archive(*this);
     } else {
-      exchange_state(*this, value);  // next to the type
+      archive_state(*this, value);  // next to the type
     }
   }
   template <typename T>
-  static constexpr auto has_member(T* value) -> decltype(value->exchange(std::declval<StateArchive&>()), true) {
+  static constexpr auto has_member(T* value) -> decltype(value->archive(std::declval<StateArchive&>()), true) {
     return true;
   }
   template <typename>
@@ -115,46 +115,46 @@ class StateArchive {
     return is_allowed(rows, T::RowsAtCompileTime, T::MaxRowsAtCompileTime) &&
            is_allowed(columns, T::ColsAtCompileTime, T::MaxColsAtCompileTime);
   }
-  void exchange(RigidTransform& X) { exchange(X.matrix()); }
-  void exchange(Twist& V) { (*this)(V.linear, V.angular); }
-  void exchange(Wrench& F) { (*this)(F.force, F.moment); }
-  void exchange(Pack& p) { exchange_numbers(reinterpret_cast<double*>(&p), pack_size); }
+  void archive(RigidTransform& X) { archive(X.matrix()); }
+  void archive(Twist& V) { (*this)(V.linear, V.angular); }
+  void archive(Wrench& F) { (*this)(F.force, F.moment); }
+  void archive(Pack& p) { archive_numbers(reinterpret_cast<double*>(&p), pack_size); }
   template <typename T, std::size_t n>
-  void exchange(std::array<T, n>& list) {
-    for (T& value : list) exchange(value);
+  void archive(std::array<T, n>& list) {
+    for (T& value : list) archive(value);
   }
   template <typename T>
-  void exchange(std::optional<T>& value) {
+  void archive(std::optional<T>& value) {
     bool there = value.has_value();
-    exchange(there);
+    archive(there);
     if (there && !value) value.emplace();
     if (!there) value.reset();
-    if (there) exchange(*value);
+    if (there) archive(*value);
   }
-  void exchange(std::string& text) { exchange_list(text); }
+  void archive(std::string& text) { archive_list(text); }
   /// A vector, a deque.
   template <template <typename, typename> class List, typename T, typename Allocator>
-  void exchange(List<T, Allocator>& list) {
-    exchange_list(list);
+  void archive(List<T, Allocator>& list) {
+    archive_list(list);
   }
   template <typename List>
-  void exchange_list(List& list) {
+  void archive_list(List& list) {
     list.resize(size(list.size()));
-    for (auto& value : list) exchange(value);
+    for (auto& value : list) archive(value);
   }
   template <typename T>
-  void exchange(std::set<T>& set) {
+  void archive(std::set<T>& set) {
     std::vector<T> list(set.begin(), set.end());
-    exchange(list);
+    archive(list);
     if (is_restoring()) set = std::set<T>(list.begin(), list.end());
   }
   template <typename Key, typename T>
-  void exchange(std::map<Key, T>& map) {
+  void archive(std::map<Key, T>& map) {
     std::vector<Key> keys;
     for (const auto& entry : map) keys.push_back(entry.first);
-    exchange(keys);
+    archive(keys);
     if (is_restoring()) map.clear();
-    for (const Key& key : keys) exchange(map[key]);
+    for (const Key& key : keys) archive(map[key]);
   }
 
   Words words_;

@@ -26,7 +26,7 @@ class WrenchTrack {
   const std::optional<ExternalWrench>& present() const { return present_; }
   void clear();
 
-  void exchange(math::StateArchive& state) { state(next_, present_); }
+  void archive(math::StateArchive& state) { state(next_, present_); }
 
  private:
   double timeout_;

@@ -51,7 +51,7 @@ struct PoseSample {
   RigidTransform X = RigidTransform::Identity();  ///< pose of the frame; positions in m
 
   /// Saves or restores both fields.
-  void exchange(math::StateArchive& state) { state(t, X); }
+  void archive(math::StateArchive& state) { state(t, X); }
 };
 
 /// The motion between two neighbouring samples: cubic Hermite interpolation of position and rotation vector, with given
@@ -81,7 +81,7 @@ class MotionSegment final : public FrameMotion {
   }
 
   /// Saves or restores the segment.
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(X_a_, begin_, end_, moving_, turning_, position_, rotation_, has_offset_, X_BC_);
   }
 
@@ -89,7 +89,7 @@ class MotionSegment final : public FrameMotion {
   /// `u (c[0] + u (c[1] + …))` for u = 0 … 1 over the segment: the change of a vector from its value at the start.
   struct Polynomial {
     std::array<Vector3d, 3> c{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}};
-    void exchange(math::StateArchive& state) { state(c); }
+    void archive(math::StateArchive& state) { state(c); }
     static Polynomial cubic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
     template <typename S>
     SPRING_WORKBENCH_INLINE math::Three<S> value(const S& u) const {

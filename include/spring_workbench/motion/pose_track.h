@@ -38,7 +38,7 @@ class PoseTrack {
   void forget_before(double t);
   void clear();  ///< forgets all samples
 
-  void exchange(math::StateArchive& state);  ///< saves or restores samples and velocities
+  void archive(math::StateArchive& state);  ///< saves or restores samples and velocities
 
  private:
   struct Node {
@@ -46,7 +46,7 @@ class PoseTrack {
     bool velocity_fixed = false;
     Vector3d v_W = Vector3d::Zero();  ///< [m/s]
     Vector3d w_B = Vector3d::Zero();  ///< body rates [rad/s]
-    void exchange(math::StateArchive& state) { state(sample, velocity_fixed, v_W, w_B); }
+    void archive(math::StateArchive& state) { state(sample, velocity_fixed, v_W, w_B); }
   };
 
   std::deque<Node>::const_iterator first_after(double t) const;

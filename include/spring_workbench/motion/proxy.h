@@ -32,7 +32,7 @@ class Proxy {
   const Twist& rate() const { return rate_; }
 
   bool operator==(const Proxy& other) const;
-  void exchange(math::StateArchive& state) { state(behind_, offset_, rate_); }
+  void archive(math::StateArchive& state) { state(behind_, offset_, rate_); }
 
  private:
   bool behind_ = false;

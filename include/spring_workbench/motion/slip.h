@@ -19,7 +19,7 @@ class Slip {
   /// Accepts the step of the last motion(). No effect if there is no slip.
   void accept();
 
-  void exchange(math::StateArchive& state) { state(open_, by_W_, turn_S_, left_); }
+  void archive(math::StateArchive& state) { state(open_, by_W_, turn_S_, left_); }
 
  private:
   RigidTransform displaced(const RigidTransform& X_WS, double left) const;

@@ -101,7 +101,7 @@ class Stylus {
     if (!track_.empty() && track_.begin() < now) track_.forget_before(now);
   }
 
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(track_, edges_, wrench_, X_WS_, clutched_, displaced_, offset_W_, rotation_offset_);
   }
 
@@ -109,7 +109,7 @@ class Stylus {
   struct Edge {
     double t;
     ButtonEdge edge;
-    void exchange(math::StateArchive& state) { state(t, edge); }
+    void archive(math::StateArchive& state) { state(t, edge); }
   };
   /// The pose of S for this pose of the hand.
   RigidTransform of_tool(const RigidTransform& X_W) const {

@@ -38,7 +38,7 @@ struct ExternalWrench {
   Axes axes = Axes::world;  ///< axes in which `wrench` is given
 
   /// Saves or restores all fields.
-  void exchange(math::StateArchive& state) { state(t, wrench, axes); }
+  void archive(math::StateArchive& state) { state(t, wrench, axes); }
 };
 /// The words for the axes in messages and in Python.
 inline std::vector<std::string> names_of(ExternalWrench::Axes) { return {"world", "tip"}; }

@@ -51,9 +51,9 @@ class Objects : public FreeObjects {
   class Archive {
    public:
     explicit Archive(Objects& of) : of_(of) {}
-    void exchange(math::StateArchive& state);
+    void archive(math::StateArchive& state);
     /// Saves or restores only the states of the objects `some`, and the part of the state that belongs to no object.
-    void exchange(math::StateArchive& state, const std::vector<std::size_t>& some);
+    void archive(math::StateArchive& state, const std::vector<std::size_t>& some);
 
    private:
     std::vector<std::size_t> moved() const;

@@ -38,7 +38,7 @@ struct WorldContact {
   double depth = 0.0;                     ///< penetration before the step [m]
   Vector3d impulse_W = Vector3d::Zero();  ///< on `body`, in the last step [N·s]
 
-  void exchange(math::StateArchive& state) { state(body, other, p_W, n_W, depth, impulse_W); }
+  void archive(math::StateArchive& state) { state(body, other, p_W, n_W, depth, impulse_W); }
 };
 
 /// Of two bodies in each other, by their contacts [m].
@@ -114,7 +114,7 @@ class RigidWorld {
   virtual const std::vector<std::size_t>& bodies_near() const = 0;
 
   /// Exchanges the whole state between two steps.
-  virtual void exchange(math::StateArchive& state) = 0;
+  virtual void archive(math::StateArchive& state) = 0;
 };
 
 /// Makes the world with all movable bodies asleep at the poses of the scene. It uses Bullet in double precision. Code

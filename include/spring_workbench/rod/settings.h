@@ -18,7 +18,7 @@ struct PerDof {
 
   /// Whether all three numbers are the same.
   bool uniform() const { return stretch == bend && bend == torsion; }
-  void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }  ///< saves or restores all three
+  void archive(math::StateArchive& state) { state(stretch, bend, torsion); }  ///< saves or restores all three
 };
 
 /// Whether all three numbers are equal.
@@ -32,7 +32,7 @@ struct ForkDofs {
   bool bend = true;     ///< whether the rod can bend
   bool torsion = true;  ///< whether the rod can twist
 
-  void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }  ///< saves or restores all three
+  void archive(math::StateArchive& state) { state(stretch, bend, torsion); }  ///< saves or restores all three
   /// Whether the same DOFs are on.
   bool operator==(const ForkDofs& o) const { return stretch == o.stretch && bend == o.bend && torsion == o.torsion; }
 };
@@ -50,7 +50,7 @@ struct PerDofChange {
   All applied_to(const All& all) const {
     return {stretch.value_or(all.stretch), bend.value_or(all.bend), torsion.value_or(all.torsion)};
   }
-  void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }  ///< saves or restores all three
+  void archive(math::StateArchive& state) { state(stretch, bend, torsion); }  ///< saves or restores all three
 };
 
 /// Shape models of the fork (doc/model.md, "Shape models").

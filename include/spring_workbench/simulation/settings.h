@@ -36,8 +36,8 @@ struct SimulationSettings {
   tools::LimitSettings limit;                 ///< keys `limit.…`
   tools::GraspSettings grasp;  ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;  ///< key `dropout_after` [s], > 0: longest gap between samples that is interpolated
-  double external_wrench_timeout = 0.1;  ///< key of this name [s], 1e-3 … 10: time after which a wrench ends
-  int impact_bisections = 8;  ///< key `impact_bisections`, 0 … 30 (paper, section 5); 0: compute the time of impact
+  double external_wrench_timeout = 0.1;  ///< key of this name [s], 1e-3 … 10: how long a wrench acts
+  int impact_bisections = 8;  ///< key `impact_bisections`, 0 … 30 to find an impact (paper, section 5); 0: compute it
 };
 
 /// Throws InputError, with `where`, key, value and rule, if a value is not allowed by its key or by the damping law.
@@ -73,7 +73,7 @@ struct ObjectEdit {
 
   bool operator==(const ObjectEdit& other) const;  ///< whether all fields are equal
   /// Saves or restores all fields.
-  void exchange(math::StateArchive& state) { state(action, name, urdf, X_WL, mass, friction); }
+  void archive(math::StateArchive& state) { state(action, name, urdf, X_WL, mass, friction); }
 };
 /// The words for the actions in messages, in their order.
 inline std::vector<std::string> names_of(ObjectEdit::Action) { return {"add", "move", "remove", "mass", "friction"}; }

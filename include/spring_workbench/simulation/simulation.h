@@ -58,8 +58,8 @@ SimulationState parse_state(const std::string& text);
 /// object stays (`steps_rejected`; doc/model.md, "Steps that are not solved"). If these three counters, `stops`,
 /// `steps_blocked`, `steps_unsolved` and `time_lost` are all 0, nothing unusual happened.
 ///
-/// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical estimate
-/// of an error from above, not a rigorous bound (doc/model.md, "Error bound").
+/// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical
+/// upper estimate, not a rigorous bound (doc/model.md, "Error bound").
 struct AdvanceReport {
   /// @name Steps and contact
   /// @{
@@ -127,8 +127,8 @@ struct ChangeReport {
 /// - Order: before you advance to a time, push everything that happens up to it. Poses, buttons and wrenches may come
 ///   in any order relative to each other, but the poses of one hand, and its wrenches, in the order of their times.
 /// - Time: the simulation owns its time and reads no clock. On processors of one kind (with or without AVX and FMA)
-///   the same calls give bit-identical results, never NaN. Times are those of the hand's clock, with any origin. World
-///   time, which velocities, rates and `settings().dynamics.step` refer to, is `settings().hand_time_scale` times that.
+///   the same calls give bit-identical results, never NaN. All times are on the hand's clock; its origin is arbitrary.
+///   Velocities, rates and the setting `step` are in world time, which runs `settings().hand_time_scale` times as fast.
 /// - Lifetimes: the scene is copied. References from const members are valid until the next call of a non-const one. A
 ///   simulation can be moved; to copy it, construct one from the same scene and settings, then copy_state_from().
 /// - Threads: not thread-safe, not even among const members, apart from prepare_edit() and prepare_rewind(). Separate
@@ -182,9 +182,9 @@ class Simulation {
   double next_event_time() const;
 
   /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; a step also ends at each
-  /// sample, button edge and change of a wrench. Stops after the step that reaches `pause` [s]; a further call
-  /// with the same `t_end` continues, and both take the same steps as one call without a pause. If `t_end` is not later
-  /// than time(), no time passes, but pending buttons act. Throws InputError if `t_end` is not finite.
+  /// sample, button edge and change of a wrench. Returns early after the step that reaches `pause` [s]: for
+  /// a time budget; a further call with the same `t_end` continues, and both take the same steps as one without a
+  /// pause. If `t_end` is not later than time(), only pending buttons act. Throws InputError if `t_end` is not finite.
   AdvanceReport advance_to(double t_end, double pause = std::numeric_limits<double>::infinity());
 
   void reset();  ///< releases all objects, returns them to their start poses, forgets all samples; time starts again
@@ -194,7 +194,8 @@ class Simulation {
   /// Releases the object of one hand or, with std::nullopt, of every hand. Returns false if nothing was held.
   bool release(std::optional<std::size_t> hand = std::nullopt);
 
-  // Changes while running. A held object's pose does not jump; nor does its twist, unless the new tool cannot follow.
+  /// @name Changes while running. No held object's pose jumps; nor does its twist, unless the new tool cannot follow.
+  /// @{
   /// Changes the tool in one hand or, with std::nullopt, in every hand. The hand keeps its object, and the new tool
   /// starts without strain. The probe cannot hold an object, so a change to it releases the object.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = std::nullopt);
@@ -209,16 +210,15 @@ class Simulation {
   /// Adds, moves or removes an object, or changes its mass or friction; the state of everything else is kept. Added and
   /// moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed one fall. A
   /// removed object is released first. A moved object keeps its start pose, to which reset() returns it. The URDF of an
-  /// added object is read from `roots` as in load_scene(), and again by restore(). Also throws InputError if a held
-  /// object is to be moved, or if an added or moved object would overlap another body by more than 0.1 mm.
+  /// added object is read from `roots` as in load_scene(), and again by restore(). Throws InputError,
+  /// and changes nothing, if a value is not allowed, a held object is to be moved, or one would overlap by over 0.1 mm.
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) {
     std::optional<Simulation> prepared = prepare_edit(edit, roots);
     return apply_edit(edit, prepared);
   }
-
+  /// @}
   /// @name Edits in two phases, for real-time threads
   /// @{
-
   /// First phase of edit(): builds the edited scene as a new simulation, or returns nothing if none is needed. Slow,
   /// but another thread may call advance_to() meanwhile. Throws InputError like edit().
   std::optional<Simulation> prepare_edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) const;

@@ -21,7 +21,7 @@ struct ErrorBounds {
     angle = std::max(angle, next.angle);
     unbounded += next.unbounded;
   }
-  void exchange(math::StateArchive& state) { state(local, position, angle, unbounded); }
+  void archive(math::StateArchive& state) { state(local, position, angle, unbounded); }
 };
 
 /// Report of StepControl::advance() on one span of time.
@@ -79,7 +79,7 @@ class StepControl {
     double angle_bound = 0.0;           ///< bound of its error in orientation [rad]
     bool bounded = false;               ///< whether the two bounds are valid (doc/model.md, "Error bound")
 
-    void exchange(math::StateArchive& state) {
+    void archive(math::StateArchive& state) {
       state(next_h, level, version, t, error, swing, stiffest_omega, energy, energy_saved, exact, spread, end,
             error_bound, angle_bound, bounded);
     }
@@ -99,7 +99,7 @@ class StepControl {
                          dynamics::StrainState& state, Memory& memory) const;
 
   /// Saves or restores the histories of the integrators.
-  void exchange(math::StateArchive& state);
+  void archive(math::StateArchive& state);
 
   static constexpr double undamped_horizon = 1.0;   ///< [s]
   static constexpr double largest_tolerance = 0.1;  ///< [m]

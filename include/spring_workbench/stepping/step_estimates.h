@@ -30,7 +30,7 @@ struct StepEstimates {
     bounds.add(next.bounds);
   }
 
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(position, angle, omega_dt, extra_steps, substeps, stops, fallback, energy, bounds);
   }
 };

@@ -19,7 +19,7 @@ struct Grasp {
   double reach = 0.0;                                ///< distance from the stylus to the tip along z [m]
   double length = 0.0;  ///< length of the spring part of a fork [m]; the rest of the reach is rigid
 
-  void exchange(math::StateArchive& state) { state(tool, object, X_WS, X_OE, reach, length); }
+  void archive(math::StateArchive& state) { state(tool, object, X_WS, X_OE, reach, length); }
 };
 
 /// The object to be grasped.

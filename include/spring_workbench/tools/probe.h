@@ -51,7 +51,7 @@ class Probe final : public dynamics::Coupling {
   double elastic_energy() const { return 0.5 * force_ * depth_; }
   const scene::Body* body() const { return body_; }
   /// Saves or restores everything that changes while it touches the same body.
-  void exchange(math::StateArchive& state) {
+  void archive(math::StateArchive& state) {
     state(since_, version_, k_, series_, c_, hand_, point_O_, normal_O_, depth_, force_);
   }
   /// Fills in the state of the tool. `X_WH`: pose of the hand.

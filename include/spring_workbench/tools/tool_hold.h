@@ -69,7 +69,7 @@ class ToolHold : public bodies::SteppedBody {
   virtual stepping::StepEstimates take_estimates() = 0;
   /// Saves or restores the whole state between two steps, including the integrator's history and the estimates. It is
   /// restored into a hold made for the same grasp and settings.
-  virtual void exchange(math::StateArchive& state) = 0;
+  virtual void archive(math::StateArchive& state) = 0;
   /// Fills in the state of the tool. `massless`: whether the object has no mass, so that forces are meaningless.
   virtual void describe(bool massless, ToolState& state) const = 0;
 };

@@ -69,8 +69,8 @@ std::vector<std::string> Summary::warnings() const {
         " samples were rejected: are positions in metres and times in seconds? The limits are the settings input.*");
   }
   if (advance.steps_fallback * fallback_share > static_cast<double>(advance.steps)) {
-    found.push_back("a fallback rule took " + std::to_string(advance.steps_fallback) +
-                    " integrations that the integrator could not take: decrease step, or set another integrator");
+    found.push_back("the integrator failed in " + std::to_string(advance.steps_fallback) +
+                    " integrations, which the fallback rule then took: decrease step or choose another integrator");
   }
   if (!held_) found.push_back("no object was held or probed: grasp with the button, or name one in grasp.object");
   return found;

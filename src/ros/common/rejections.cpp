@@ -13,7 +13,7 @@ void Rejections::add(const std::string& reason, const std::string& line) {
   const auto last = last_logged_.find(reason);
   if (last != last_logged_.end() && now - last->second < log_period) return;
   last_logged_[reason] = now;
-  ROS_WARN_STREAM(line << "; rejected");
+  ROS_WARN_STREAM("rejected: " << line);
 }
 
 void Rejections::add_loop_stalled(const std::string& place) {

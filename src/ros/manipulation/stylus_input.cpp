@@ -108,7 +108,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
         reject_stamp(one, result, age);
       });
   if (const double host_set = wall_poses_.take_host_steps(); host_set != 0.0)
-    ROS_WARN("this host's clock was set, or the host was suspended: %.3g s are treated as an offset", host_set);
+    ROS_WARN("this host's clock was set, or the host was suspended: compensating for an offset of %.3g s", host_set);
   if (wall_poses_.clock().steps() == steps) return;
   ++statistics_.clock_steps;
   ROS_WARN_STREAM("the clock of " << sender_.name() << " jumped: its stamps are used with a new offset from now on");

@@ -121,7 +121,7 @@ class InteractiveMarkerSource final : public MessageSource {
 
   void refuse_pose(const std::string& reason) {
     ++rejected_;
-    ROS_WARN_STREAM_THROTTLE(5.0, "stylus/marker/feedback: " << reason << "; rejected");
+    ROS_WARN_STREAM_THROTTLE(5.0, "rejected: stylus/marker/feedback: " << reason);
     server_.setPose(marker_name, ros_common::to_pose(follower_.goal()));
     server_.applyChanges();
   }

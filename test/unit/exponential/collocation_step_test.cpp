@@ -34,7 +34,7 @@ struct Decomposition {
     to_modes = modes.inverse;
     rates = modes.rates;
   }
-  void exchange(math::StateArchive& state) { state(stiffness, damping, to_modes, from_modes, rates); }
+  void archive(math::StateArchive& state) { state(stiffness, damping, to_modes, from_modes, rates); }
 };
 
 /// A pendulum under a force along its path: θ̈ = −ω² s(θ) − d θ̇ + force(t), s = sin, or the identity if it is linear.
@@ -121,7 +121,7 @@ struct Coupled {
     Square stiffness = Square::Zero(), damping = Square::Zero();
     Eigen::Matrix<double, 6, 6> to_modes, from_modes;
     ModalRates rates;
-    void exchange(math::StateArchive& state) { state(stiffness, damping, to_modes, from_modes, rates); }
+    void archive(math::StateArchive& state) { state(stiffness, damping, to_modes, from_modes, rates); }
   };
   using Input = double (*)(double t);
   using Forcing = math::Pack;

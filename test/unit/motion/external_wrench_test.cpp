@@ -19,7 +19,7 @@ ExternalWrench sample(double t, double force) {
 
 math::StateArchive::Words words(WrenchTrack& track) {
   math::StateArchive archive;
-  track.exchange(archive);
+  track.archive(archive);
   return archive.words();
 }
 
