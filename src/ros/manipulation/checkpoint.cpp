@@ -48,8 +48,8 @@ void Checkpoint::set_file_error(const std::string& file_error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (file_error == file_error_) return;
   file_error_ = file_error;
-  if (file_error.empty()) ROS_INFO("the checkpoint file is up to date again");
-  if (!file_error.empty()) ROS_WARN_STREAM("the checkpoint file is not up to date: " << file_error);
+  const std::string now = file_error.empty() ? "up to date again" : "not up to date: " + file_error;
+  ROS_WARN_STREAM("the checkpoint file is " << now);
 }
 
 void Checkpoint::keep_on_new_master() {
