@@ -47,8 +47,8 @@ class Integrator {
   virtual ~Integrator() = default;
 
   virtual int order() const = 0;  ///< order of accuracy for smooth motions
-  /// Optional. Whether the step is stable at any stiffness. If not overridden: false, and a step that is not solved is
-  /// repeated as shorter ones only with a tolerance; without one, an L-stable rule takes it.
+  /// Optional. Whether the method is stable at any stiffness. Default: false. If the method then fails to solve a step,
+  /// the step is retried with shorter steps if a tolerance is set, and otherwise done by an L-stable fallback.
   virtual bool stiffly_stable() const { return false; }
   /// How the method changes the energy of a motion without damping; this decides which steps are accepted.
   enum class Energy {
@@ -57,7 +57,7 @@ class Integrator {
     unbounded,       ///< arbitrary, as by explicit methods; the energy is not checked
     not_applicable,  ///< the method relaxes to a target; its error estimates refer to its own limit for short steps
   };
-  /// Optional. The effect of this method. If not overridden: unbounded.
+  /// Optional. The effect of this method. Default: unbounded.
   virtual Energy energy() const { return Energy::unbounded; }
   /// Whether the result converges to the solution of the equation of motion as the steps get shorter.
   bool solves_the_equation_of_motion() const { return energy() != Energy::not_applicable; }
@@ -68,17 +68,17 @@ class Integrator {
                             StrainState& state) = 0;
 
   /// Optional. Replaces `deviation`, a small change of the state `begin` at time `t` [s], by the change that it causes
-  /// in the state `end` at `t + h`. For runs with a tolerance. If not overridden: calls step() once more and subtracts.
+  /// in the state `end` at `t + h`. For runs with a tolerance. Default: calls step() once more and subtracts.
   virtual void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                    const StrainState& begin, const StrainState& end, StrainState& deviation);
 
-  /// Optional. Whether the method overrides propagate_run_error(). If not overridden: false, and with the setting
+  /// Optional. Whether the method overrides propagate_run_error(). Default: false, and with the setting
   /// `error_bound` the method `exponential` runs alongside this one.
   virtual bool tracks_run_error() const { return false; }
   /// Optional. Propagates `error` over the last step and adds the error of that step. It is called after step(), with
-  /// the same body, for each accepted step. If not overridden: does nothing.
+  /// the same body, for each accepted step. Default: does nothing.
   virtual void propagate_run_error([[maybe_unused]] const HeldBody& body, [[maybe_unused]] RunError& error) {}
-  /// Optional. Work over the last step along the method's own path. If not overridden: none, and the work is computed
+  /// Optional. Work over the last step along the method's own path. Default: none, and the work is computed
   /// on a smooth curve between both ends of the step.
   virtual std::optional<StepWork> work(const HeldBody&) const { return std::nullopt; }
 
@@ -87,15 +87,15 @@ class Integrator {
     rod::StrainMatrix q;      ///< change of q per unit of Q
     rod::StrainMatrix q_dot;  ///< change of q̇ per unit of Q
   };
-  /// Optional. Returns the response of a step of `h` [s] from `state`, for contact. If not overridden: the response of
+  /// Optional. Returns the response of a step of `h` [s] from `state`, for contact. Default: the response of
   /// the implicit Euler rule.
   virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
 
   /// Optional. Saves or restores the history. Override it to call `state(a_, b_)` with all members that a later step()
-  /// uses; if one is forgotten, replay and restored runs differ silently. If not overridden: there is no history.
+  /// uses; if one is forgotten, replay and restored runs differ silently. Default: there is no history.
   virtual void archive(math::StateArchive&) {}
   /// Optional. Whether archive() restores everything that step() depends on, so that one integrator may be reused for
-  /// another simulation by restoring that simulation's history. If not overridden: false.
+  /// another simulation by restoring that simulation's history. Default: false.
   virtual bool restores_completely() const { return false; }
 };
 

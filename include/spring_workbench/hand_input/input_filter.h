@@ -41,7 +41,7 @@ struct AcceptedInput {
   motion::ExternalWrench wrench;                     ///< for `external_wrench`: the wrench, measured at time `t`
   /// Simulated time at which the input was given [s]; −infinity before the first advance.
   double committed = -std::numeric_limits<double>::infinity();
-  double target = committed;  ///< later than `committed` while an advance to this time is interrupted [s]
+  double target = committed;  ///< time that an interrupted advance was heading for [s]; otherwise `committed`
 };
 
 /// Filter between a tracker and a simulation, for callers with raw samples, which have noise, outliers and dropouts.

@@ -170,10 +170,10 @@ class Simulation {
   void push_clutch(double t, bool on, std::size_t hand = 0) {
     push_edge(t, on ? motion::ButtonEdge::clutch_on : motion::ButtonEdge::clutch_off, hand);
   }
-  /// Adds a wrench on the held object that a machine's force sensor measured, in real units; it is multiplied by the
-  /// scene's `force_scale`. It acts from its time (at once if that has passed) until the next wrench, but at most for
-  /// `settings().external_wrench_timeout`. It replaces pending wrenches of its own or a later time. Throws InputError,
-  /// and changes nothing, if it is invalid.
+  /// Applies a wrench, as a machine's force sensor measured it, to the held object at the tip. It is in real units, and
+  /// is multiplied by the scene's `force_scale`. It acts from its time (at once if that has passed) until the next
+  /// wrench, but at most for `settings().external_wrench_timeout`. It replaces pending wrenches of its own or a later
+  /// time. Throws InputError, and changes nothing, if it is invalid.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   double newest_sample_time() const;  ///< time of the newest sample of any hand, or time() if there is none [s]
   /// The next time [s] at which a hand has a sample or, once time has begun, a button changes or an external wrench
@@ -182,9 +182,9 @@ class Simulation {
   double next_event_time() const;
 
   /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; a step also ends at each
-  /// sample, button edge and change of a wrench. Returns early after the step that reaches `pause` [s]: for
-  /// a time budget; a further call with the same `t_end` continues, and both take the same steps as one without a
-  /// pause. If `t_end` is not later than time(), only pending buttons act. Throws InputError if `t_end` is not finite.
+  /// sample, button edge and change of a wrench. Returns early after the step that reaches the simulated time `pause`
+  /// [s]; call again with the same `t_end` to continue: the steps are the same as without a pause. If `t_end` is not
+  /// later than time(), only pending buttons act. Throws InputError if `t_end` is not finite.
   AdvanceReport advance_to(double t_end, double pause = std::numeric_limits<double>::infinity());
 
   void reset();  ///< releases all objects, returns them to their start poses, forgets all samples; time starts again
@@ -210,8 +210,8 @@ class Simulation {
   /// Adds, moves or removes an object, or changes its mass or friction; the state of everything else is kept. Added and
   /// moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed one fall. A
   /// removed object is released first. A moved object keeps its start pose, to which reset() returns it. The URDF of an
-  /// added object is read from `roots` as in load_scene(), and again by restore(). Throws InputError,
-  /// and changes nothing, if a value is not allowed, a held object is to be moved, or one would overlap by over 0.1 mm.
+  /// added object is read from `roots` as in load_scene(), and again by restore(). Throws InputError, and
+  /// changes nothing, if a value is not allowed, a held object is to be moved, or bodies would overlap by over 0.1 mm.
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {}) {
     std::optional<Simulation> prepared = prepare_edit(edit, roots);
     return apply_edit(edit, prepared);
