@@ -29,11 +29,9 @@ class StateArchive {
   /// Makes an archive that restores the numbers of a state from `words`, which must outlive the archive.
   explicit StateArchive(const Words& words) : source_(&words) {}
 
-  bool is_restoring() const {
-    return source_ != nullptr;
-  }                                               ///< whether the archive restores a state; otherwise it saves one
-  const Words& words() const& { return words_; }  ///< the numbers that were saved
-  Words words() && { return std::move(words_); }  ///< the numbers that were saved, moved out
+  bool is_restoring() const { return source_ != nullptr; }  ///< whether it restores a state; otherwise it saves one
+  const Words& words() const& { return words_; }            ///< the numbers that were saved
+  Words words() && { return std::move(words_); }            ///< the numbers that were saved, moved out
   /// Whether no word is left to restore from.
   bool at_end() const { return source_ == nullptr || next_ == source_->size(); }
 

@@ -151,7 +151,7 @@ The last line on standard output is one JSON object (null: no number):
   steps_rejected                            steps without a usable result: the fork was rigid, or the object blocked
   time_lost                                 [s] during which an object did not follow its equation of motion
   changes                                   changes by services and panels that the bag has
-  changes_replayed                        changes that were carried out again, not loaded from the bag
+  changes_replayed                          changes that were carried out again, not loaded from the bag
   changes_mismatched                        changes that led to another state than the recorded one
   state_hash, active, skipped               of the final state; the subsystems that ran; those that did not
 Exit status: 0 done, with warnings on standard error; 1 failed; 2 bad arguments or input, with one line there.
