@@ -16,8 +16,8 @@ void EnergyWatch::look(const EnergyLook& now, const motion::MotionSegment& handl
   deflection_ = std::max(deflection_, now.from_rigid.norm());
   if (any_) {
     const double h = now.t - last_.t;
-    const motion::OwnAxesMotion begin = handle.in_own_axes(last_.t), middle = handle.in_own_axes(last_.t + 0.5 * h),
-                                end = handle.in_own_axes(now.t);
+    const motion::BodyRateState begin = handle.body_rate_state(last_.t),
+                                middle = handle.body_rate_state(last_.t + 0.5 * h), end = handle.body_rate_state(now.t);
     const Vector3d &u0 = begin.v_W, u1 = (4.0 * middle.v_W - 3.0 * begin.v_W - end.v_W) / h,
                    u2 = 2.0 * (begin.v_W - 2.0 * middle.v_W + end.v_W) / (h * h);
     const Vector3d displacement = now.p_WO - last_.p_WO, velocity_change = now.v_WO_W - last_.v_WO_W;

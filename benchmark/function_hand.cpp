@@ -2,9 +2,9 @@
 
 namespace spring_workbench::benchmark {
 
-motion::OwnAxesMotion FunctionHand::in_own_axes(double t) const {
+motion::BodyRateState FunctionHand::body_rate_state(double t) const {
   const auto& [state, acceleration] = handle_motion(scene_, t);
-  motion::OwnAxesMotion m;
+  motion::BodyRateState m;
   m.X.linear() = state.R_WT;
   m.X.translation() = state.p_WT;
   m.v_W = state.v_WT_W;
@@ -14,16 +14,16 @@ motion::OwnAxesMotion FunctionHand::in_own_axes(double t) const {
   return m;
 }
 
-motion::FrameForcing<math::Pack> FunctionHand::forcing(const math::Pack& t, double gravity) const {
-  motion::FrameForcing<math::Pack> all;
+motion::BodyFrameMotion<math::Pack> FunctionHand::body_frame_motion(const math::Pack& t, double gravity) const {
+  motion::BodyFrameMotion<math::Pack> all;
   for (int i = 0; i < math::pack_size; ++i) {
-    const motion::OwnAxesMotion m = in_own_axes(t[i]);
+    const motion::BodyRateState m = body_rate_state(t[i]);
     const Matrix3d R_BW = m.X.linear().transpose();
-    math::set_lane(all.R_WB, i, math::three_by_three(m.X.linear()));
-    math::set_lane(all.v_B, i, math::three(R_BW * m.v_W));
-    math::set_lane(all.w_B, i, math::three(m.w_B));
-    math::set_lane(all.alpha_B, i, math::three(m.alpha_B));
-    math::set_lane(all.a_B, i, math::three(R_BW * (m.a_W + gravity * Vector3d::UnitZ())));
+    math::set_lane(all.R_WB, i, math::mat3x3(m.X.linear()));
+    math::set_lane(all.v_B, i, math::vec3(R_BW * m.v_W));
+    math::set_lane(all.w_B, i, math::vec3(m.w_B));
+    math::set_lane(all.alpha_B, i, math::vec3(m.alpha_B));
+    math::set_lane(all.a_B, i, math::vec3(R_BW * (m.a_W + gravity * Vector3d::UnitZ())));
   }
   return all;
 }

@@ -10,8 +10,8 @@ class FunctionHand final : public motion::FrameMotion {
  public:
   explicit FunctionHand(const Scenario& scene) : scene_(scene) {}
 
-  motion::OwnAxesMotion in_own_axes(double t) const override;
-  motion::FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override;
+  motion::BodyRateState body_rate_state(double t) const override;
+  motion::BodyFrameMotion<math::Pack> body_frame_motion(const math::Pack& t, double gravity) const override;
 
  private:
   const Scenario& scene_;

@@ -58,14 +58,14 @@ RodForce::RodForce(const RodCase& one, const std::string& shape, When when)
       damping_(held_.damping()),
       samples_(one.hand, one.fork.length),
       when_(when),
-      hand_(samples_.handle(0.0).in_own_axes(0.0)) {}
+      hand_(samples_.handle(0.0).body_rate_state(0.0)) {}
 
 bool RodForce::can_push(const RodCase& one, const std::string& shape) {
   return held_body(one, shape).size() == rod::max_strain_coordinates;
 }
 
 FreeBody RodForce::body() const {
-  const motion::MotionState O = held_.object(held_.forcing(samples_.handle(0.0), 0.0), held_.zero_state());
+  const motion::MotionState O = held_.object(held_.motion_at(samples_.handle(0.0), 0.0), held_.zero_state());
   const Vector3d w_WO_O = O.X.linear().transpose() * O.velocity.angular;
   return {held_.body().mass,
           held_.body().inertia_O.diagonal(),
@@ -76,7 +76,7 @@ FreeBody RodForce::body() const {
 void RodForce::move_hand(double t) {
   if (t == t_) return;
   const RigidTransform before = hand_.X;
-  hand_ = samples_.handle(t).in_own_axes(t);
+  hand_ = samples_.handle(t).body_rate_state(t);
   if (when_ == When::each_stage) return;
   hand_.v_W = (hand_.X.translation() - before.translation()) / (t - t_);
   hand_.w_B = math::log_so3(before.linear().transpose() * hand_.X.linear()) / (t - t_);
@@ -103,7 +103,7 @@ Wrench RodForce::load(double t, double h, const BodyState& body) {
     const Matrix6d M = mass_matrix(held_, fit, p_OE);
     pull = M * (M + h * (damping_ + h * stiffness_)).llt().solve(pull);
   }
-  math::Three<double> force{}, moment{};
+  math::Vec3<double> force{}, moment{};
   double generalised[rod::max_strain_coordinates];
   Eigen::Map<Vector6d>{generalised} = pull;
   fit.wrench(generalised, force, moment);

@@ -48,7 +48,7 @@ class RodForce {
   SampledHand samples_;
   When when_;
   double t_ = 0.0;                                            ///< time of the last load [s]
-  motion::OwnAxesMotion hand_;                                ///< the hand then
+  motion::BodyRateState hand_;                                ///< the hand then
   Vector6d q_ = Vector6d::Zero(), q_dot_ = Vector6d::Zero();  ///< the strain then, and its rate
   bool lost_ = false;
 };

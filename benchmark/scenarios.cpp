@@ -134,7 +134,7 @@ HandMotion tip_on_sine(const Scenario& scene, double t) {
   return m;
 }
 
-HandMotion as_hand(const motion::OwnAxesMotion& m) {
+HandMotion as_hand(const motion::BodyRateState& m) {
   return {{m.X.linear(), m.X.translation(), m.v_W, m.w_B}, {m.a_W, m.alpha_B}};
 }
 
@@ -142,13 +142,13 @@ HandMotion as_hand(const motion::OwnAxesMotion& m) {
 
 ScalarMotion scalar_hand(const Scenario& scene, double t) {
   if (!scene.samples) return scalar_motion(scene, t);
-  const motion::OwnAxesMotion m = scene.samples->tip(t).in_own_axes(t);
+  const motion::BodyRateState m = scene.samples->tip(t).body_rate_state(t);
   if (scene.kind == SceneKind::stretch) return {m.X.translation().z(), m.v_W.z(), m.a_W.z()};
   return {math::log_so3(m.X.linear()).z(), m.w_B.z(), m.alpha_B.z()};
 }
 
 HandMotion hand_motion(const Scenario& scene, double t) {
-  if (scene.samples) return as_hand(scene.samples->tip(t).in_own_axes(t));
+  if (scene.samples) return as_hand(scene.samples->tip(t).body_rate_state(t));
   if (scene.kind != SceneKind::six_dof) return tip_on_sine(scene, t);
   const ScalarMotion s = from_rest(t, scene.ramp);
   HandMotion m = tip_on_lissajous(s.value);
@@ -160,7 +160,7 @@ HandMotion hand_motion(const Scenario& scene, double t) {
 }
 
 HandMotion handle_motion(const Scenario& scene, double t) {
-  if (scene.samples) return as_hand(scene.samples->handle(t).in_own_axes(t));
+  if (scene.samples) return as_hand(scene.samples->handle(t).body_rate_state(t));
   HandMotion m = hand_motion(scene, t);
   const Matrix3d& R = m.state.R_WT;
   const Vector3d &w = m.state.w_WT_T, p_TH = -scene.length * Vector3d::UnitZ(), v = w.cross(p_TH);

@@ -81,8 +81,8 @@ class Equations {
     return body_.shape().admissible(body_.full_state(t, {q, Eigen::Matrix<double, n, 1>::Zero()}).q);
   }
   /// The hand at `t`, cached for repeated calls with the same time.
-  const dynamics::HandleForcing& forcing(double t) const {
-    if (!known_ || known_->t != t) known_ = body_.forcing(*hand_, t);
+  const dynamics::HandleMotion& forcing(double t) const {
+    if (!known_ || known_->t != t) known_ = body_.motion_at(*hand_, t);
     return *known_;
   }
 
@@ -90,7 +90,7 @@ class Equations {
   std::array<double, rod::max_strain_coordinates> inside_{};
   std::optional<SampledHand> samples_;
   const motion::FrameMotion* hand_;
-  mutable std::optional<dynamics::HandleForcing> known_;
+  mutable std::optional<dynamics::HandleMotion> known_;
 };
 
 /// The rates for the number of coordinates; with `through`, with the hand's segment at each time.

@@ -230,7 +230,7 @@ Raises InputError, and changes nothing, if no movable object has such a name or 
 pose: pose of the object's URDF link frame in world, shape (4, 4). Raises InputError if the object or a value is not
 allowed.)")
       .def("reset", &Simulation::reset,
-           "Releases all objects, returns them to their start poses and forgets all samples.");
+           "Releases all objects, returns them to their start poses, forgets all samples; time starts again.");
 }
 
 void update(SimulationSettings& settings, const py::dict& values) {
@@ -335,11 +335,11 @@ wrenches of its own or a later time. Raises InputError if a value is not allowed
 Like push_stylus, it ignores each pose whose time is not later than the time of the newest one. Raises InputError if a
 pose is invalid; the samples before it are then added.)")
       .def("advance_to", &Simulation::advance_to, py::arg("t_end"),
-           py::arg("pause") = std::numeric_limits<double>::infinity(), py::call_guard<py::gil_scoped_release>(),
+           py::arg("pause_at") = std::numeric_limits<double>::infinity(), py::call_guard<py::gil_scoped_release>(),
            R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
-Stops after the step that reaches `pause` [s]; a further call with the same t_end continues, and together they take the
-same steps as one call without a pause.
+Stops after the step that reaches `pause_at` [s]; a further call with the same t_end continues, and together they take
+the same steps as one call without a pause.
 
 If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still act. Raises
 InputError if t_end is not finite.)");

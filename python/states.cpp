@@ -141,9 +141,9 @@ void bind_report(py::module& module) {
                             R"(Report on one call of `advance_to`.
 
 A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
-repeated as shorter ones; `substeps` counts the discarded attempts. If that does not help, or the integrator is not
-stable at any stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is rigid for
-the step or, in contact, the object stays in place (`steps_rejected`). If these three counters, `stops`,
+repeated as shorter ones; `substeps` counts the discarded attempts. If that does not help, or the integrator is
+unstable at high stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is rigid
+for the step or, in contact, the object stays in place (`steps_rejected`). If these three counters, `stops`,
 `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step may take several
 integrations.
 

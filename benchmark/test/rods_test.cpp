@@ -116,7 +116,8 @@ std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& s
   const motion::MotionSegment* segment = &track.segment(0.0);
   const auto cvode = make_cvode(CvodeFormula::bdf, 2 * n, [&](double t, const double* y, double* rate) {
     Eigen::Map<Eigen::VectorXd>(rate, n) = state(y).q_dot;
-    Eigen::Map<Eigen::VectorXd>(rate + n, n) = body.acceleration(body.forcing(*segment, t), state(y).q, state(y).q_dot);
+    Eigen::Map<Eigen::VectorXd>(rate + n, n) =
+        body.acceleration(body.motion_at(*segment, t), state(y).q, state(y).q_dot);
     return true;
   });
   std::vector<double> y(static_cast<std::size_t>(2 * n), 0.0), scale = y;
@@ -125,12 +126,12 @@ std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& s
     scale[static_cast<std::size_t>(i)] = (i < n ? 1.0 : 10.0) * strain;
   }
   cvode->begin(0.0, y, 1e-12, scale);
-  std::vector<RigidTransform> poses{body.object(body.forcing(*segment, 0.0), state(y.data())).X};
+  std::vector<RigidTransform> poses{body.object(body.motion_at(*segment, 0.0), state(y.data())).X};
   for (const double end : output_times(one)) {
     if (end == 0.0) continue;
     segment = &track.segment(end - 0.01);
     const double* reached = cvode->advance(end, end);
-    poses.push_back(body.object(body.forcing(*segment, end), state(reached)).X);
+    poses.push_back(body.object(body.motion_at(*segment, end), state(reached)).X);
   }
   return poses;
 }
@@ -326,7 +327,7 @@ EnergyWatch watched(double omega, double h, double tremor, double error, bool is
   double x = 0.1, v = 0.0;  // of the body; the spring is unstretched if the body is at the handle
   const int steps = static_cast<int>(std::lround(interval / h));
   const auto look = [&](double t, const motion::MotionSegment& handle) {
-    const double stretch = x - handle.in_own_axes(t).X.translation().z();
+    const double stretch = x - handle.body_rate_state(t).X.translation().z();
     watch.look({t, 0.5 * mass * (omega * omega * stretch * stretch + v * v), Vector3d(0.0, 0.0, x),
                 Vector3d(0.0, 0.0, v), Vector3d(0.0, 0.0, stretch), is_told ? std::abs(error) : 0.0},
                handle);
@@ -336,9 +337,9 @@ EnergyWatch watched(double omega, double h, double tremor, double error, bool is
     const motion::MotionSegment& handle = track.segment(t + 0.5 * h);
     if (i == 0) look(t, handle);
     // Driven by the handle's cubic: a particular solution of the same degree plus the oscillation.
-    const motion::OwnAxesMotion begin = handle.in_own_axes(t), end = handle.in_own_axes(t + h);
+    const motion::BodyRateState begin = handle.body_rate_state(t), end = handle.body_rate_state(t + h);
     const double a0 = begin.a_W.z(), a1 = end.a_W.z(), w2 = omega * omega;
-    const auto particular = [&](const motion::OwnAxesMotion& m, double a) {
+    const auto particular = [&](const motion::BodyRateState& m, double a) {
       return m.X.translation().z() - (a + gravity) / w2;
     };
     const double jerk = (a1 - a0) / h;

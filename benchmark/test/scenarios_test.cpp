@@ -124,9 +124,9 @@ TEST(Scenarios, AHandThatIsAFunctionIsTheSameAtFourTimesAtOnce) {
   for (const Scenario& scene : all_scenes()) {
     const FunctionHand hand(scene);
     const math::Pack t{0.0, 0.3, 1.7, 3.9};
-    const motion::FrameForcing<math::Pack> all = hand.forcing(t, 9.81);
+    const motion::BodyFrameMotion<math::Pack> all = hand.body_frame_motion(t, 9.81);
     for (int i = 0; i < math::pack_size; ++i) {
-      const motion::OwnAxesMotion one = hand.in_own_axes(t[i]);
+      const motion::BodyRateState one = hand.body_rate_state(t[i]);
       const Matrix3d R = math::matrix(all.R_WB, i);
       EXPECT_EQ(R, one.X.linear());
       EXPECT_LT((R * math::vector(all.v_B, i) - one.v_W).norm(), 1e-14);

@@ -84,7 +84,7 @@ class Run {
       now = std::max(now, sample.t);
       const hand_input::GateResult result = filter_.push_stylus(
           {sample.t, sample.X.translation(), Quaterniond(sample.X.linear())}, RigidTransform::Identity(), {now, now});
-      while (const std::optional<double> stop = filter_.next_stop({now, now})) commit(*stop);
+      while (const std::optional<double> stop = filter_.next_target({now, now})) commit(*stop);
       if (!hand_input::usable(result)) continue;
       for (std::size_t i = 0; i < kAhead.size(); ++i) {
         const double t = simulation_.newest_sample_time() + kAhead[i];

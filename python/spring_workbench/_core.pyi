@@ -231,7 +231,7 @@ class AdvanceReport:
 
     A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
     repeated as shorter ones; `substeps` counts the discarded attempts. If that does not help, or the integrator is
-    not stable at any stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is
+    unstable at high stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is
     rigid for the step or, in contact, the object stays in place (`steps_rejected`). If these three counters,
     `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step
     may take several integrations.
@@ -383,10 +383,10 @@ class Simulation:
 
         Like push_stylus, it ignores each pose whose time is not later than the time of the newest one. Raises
         InputError if a pose is invalid; the samples before it are then added."""
-    def advance_to(self, t_end: float, pause: float = ...) -> AdvanceReport:
+    def advance_to(self, t_end: float, pause_at: float = ...) -> AdvanceReport:
         """Simulates up to time t_end [s], in steps that also end at the samples. Returns an AdvanceReport.
 
-        Stops after the step that reaches `pause` [s]; a further call with the same t_end continues, and
+        Stops after the step that reaches `pause_at` [s]; a further call with the same t_end continues, and
         together they take the same steps as one call without a pause.
 
         If t_end is not later than `time`, no time passes, but buttons that were pushed for times up to `time` still
@@ -504,7 +504,7 @@ class Simulation:
         not allowed."""
 
     def reset(self) -> None:
-        """Releases all objects, returns them to their start poses and forgets all samples."""
+        """Releases all objects, returns them to their start poses, forgets all samples; time starts again."""
 
 def load_scene(path: str, roots: Sequence[str] = ...) -> Scene:
     """Reads a scene from a URDF (a path or package:// URI) and from the YAML file of the same name next to it, if there

@@ -180,7 +180,8 @@ YAML::Node load_yaml_file(const std::string& path) {
   if (file.bad() || text.fail())
     validation::refuse("", path, std::string("a readable YAML file (") + std::strerror(errno) + ")");
   try {
-    if (has_more_than_one_document(text.str())) validation::refuse(path, "documents", "one in a file, got more");
+    if (has_more_than_one_document(text.str()))
+      throw validation::InputError(path + ": contains several YAML documents: expected one");
     const YAML::Node document = YAML::Load(text.str());
     if (document.IsNull()) return YAML::Node(YAML::NodeType::Map);
     long values = 0;

@@ -5,26 +5,26 @@
 namespace spring_workbench::dynamics {
 namespace {
 
-RelativeMotion<double> relative_motion(const motion::OwnAxesMotion& A, const motion::OwnAxesMotion& H) {
+RelativeMotion<double> relative_motion(const motion::BodyRateState& A, const motion::BodyRateState& H) {
   const auto R_AW = A.X.linear().transpose();
   const Matrix3d R_AH = R_AW * H.X.linear();
   const Vector3d p = R_AW * (H.X.translation() - A.X.translation());
-  return {math::three_by_three(R_AH), math::three(p), math::three(Vector3d(R_AW * (H.v_W - A.v_W) - A.w_B.cross(p))),
-          math::three(Vector3d(R_AH * H.w_B - A.w_B))};
+  return {math::mat3x3(R_AH), math::vec3(p), math::vec3(Vector3d(R_AW * (H.v_W - A.v_W) - A.w_B.cross(p))),
+          math::vec3(Vector3d(R_AH * H.w_B - A.w_B))};
 }
 
 /// B in A and C in B: C in A.
 template <typename S>
 RelativeMotion<S> operator*(const RelativeMotion<S>& A_B, const RelativeMotion<S>& B_C) {
-  const math::Three<S> r = A_B.R_AB * B_C.p_AB;
+  const math::Vec3<S> r = A_B.R_AB * B_C.p_AB;
   return {A_B.R_AB * B_C.R_AB, A_B.p_AB + r, A_B.v_AB + cross(A_B.w_AB, r) + A_B.R_AB * B_C.v_AB,
           A_B.w_AB + A_B.R_AB * B_C.w_AB};
 }
 
 }  // namespace
 
-RelativeMotion<double> relative_motion(const motion::OwnAxesMotion& A, const motion::MotionState& O) {
-  motion::OwnAxesMotion own;
+RelativeMotion<double> relative_motion(const motion::BodyRateState& A, const motion::MotionState& O) {
+  motion::BodyRateState own;
   own.X = O.X;
   own.v_W = O.velocity.linear;
   own.w_B = O.X.linear().transpose() * O.velocity.angular;
@@ -45,8 +45,8 @@ void Couplings::find_relative_motions(const motion::FrameMotion& handle, double 
   A_H.resize(attached_.size());
   for (std::size_t i = 0; i < A_H.count; ++i) {
     const Attached& a = attached_[i];
-    const motion::OwnAxesMotion A = a.frame->in_own_axes(t);
-    const motion::OwnAxesMotion H = (a.handle != nullptr ? *a.handle : handle).in_own_axes(t);
+    const motion::BodyRateState A = a.frame->body_rate_state(t);
+    const motion::BodyRateState H = (a.handle != nullptr ? *a.handle : handle).body_rate_state(t);
     A_H.in_frame(i) = relative_motion(A, H);
     A_H.distance = std::max({A_H.distance, A.X.translation().norm(), H.X.translation().norm()});
   }
@@ -74,10 +74,10 @@ Couplings::RelativeMotions<double> Couplings::lane(const RelativeMotions<math::P
   RelativeMotions<double> at;
   at.distance = A_H.distance;
   at.resize(A_H.count);
-  const auto three = [i](const math::Three<math::Pack>& v) { return math::three(math::vector(v, i)); };
+  const auto one = [i](const math::Vec3<math::Pack>& v) { return math::vec3(math::vector(v, i)); };
   for (std::size_t k = 0; k < A_H.count; ++k) {
     const RelativeMotion<math::Pack>& s = A_H.in_frame(k);
-    at.in_frame(k) = {{three(s.R_AB.x), three(s.R_AB.y), three(s.R_AB.z)}, three(s.p_AB), three(s.v_AB), three(s.w_AB)};
+    at.in_frame(k) = {{one(s.R_AB.x), one(s.R_AB.y), one(s.R_AB.z)}, one(s.p_AB), one(s.v_AB), one(s.w_AB)};
   }
   return at;
 }
@@ -114,8 +114,8 @@ Couplings::Reading Couplings::read(double t, const RelativeMotions<double>& A_H,
     all.springs.energy += of_A.energy;
     all.springs.dissipated += of_A.dissipated;
     // A's own motion, from the handle's, and what its pull on the object asks of it.
-    const math::Three<double> w_WA = A_H.in_frame(i).R_AB * W_H.w_AB - A_H.in_frame(i).w_AB;
-    const math::Three<double> v_WA =
+    const math::Vec3<double> w_WA = A_H.in_frame(i).R_AB * W_H.w_AB - A_H.in_frame(i).w_AB;
+    const math::Vec3<double> v_WA =
         A_H.in_frame(i).R_AB * W_H.v_AB - A_H.in_frame(i).v_AB - cross(w_WA, A_H.in_frame(i).p_AB);
     Pull<double> pull{};
     attached_[i].coupling->pull(t, A_O, pull);

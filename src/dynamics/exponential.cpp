@@ -28,13 +28,13 @@ class Exponential::CoreOf final : public Core {
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override {
     if (version_ != body.version() || refactorisation_.is_due(state.q, modes().q_reference, modes().mass)) {
-      linearise(body, body.forcing(handle, t), state.q);
+      linearise(body, body.motion_at(handle, t), state.q);
     }
     const StrainState begin = state;
     const bool predicted = steps_.has_history();
     StepEstimate e = iterate(body, handle, t, h, state);
     if (!e.converged && (predicted || begin.q != modes().q_reference)) {
-      linearise(body, body.forcing(handle, t), begin.q);
+      linearise(body, body.motion_at(handle, t), begin.q);
       state = begin;
       e = iterate(body, handle, t, h, state);
     }
@@ -75,7 +75,7 @@ class Exponential::CoreOf final : public Core {
 
   const ModalDecomposition& modes() const { return steps_.propagator().modes(); }
 
-  void linearise(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
+  void linearise(const HeldBody& body, const HandleMotion& handle, const rod::StrainVector& q) {
     refactorisation_.restart(q);
     steps_.set(modal_decomposition(body, handle, q));
     version_ = body.version();
@@ -140,7 +140,7 @@ void Exponential::archive(math::StateArchive& state) {
   n_ = 0;
 }
 
-Integrator::Response Exponential::response(const HeldBody& body, const HandleForcing& handle, double h,
+Integrator::Response Exponential::response(const HeldBody& body, const HandleMotion& handle, double h,
                                            const StrainState& state) {
   const Response* known = body.size() > 0 && body.size() == n_ ? core_->response(body, h) : nullptr;
   return known != nullptr ? *known : Integrator::response(body, handle, h, state);

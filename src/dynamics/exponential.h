@@ -30,7 +30,7 @@ class Exponential final : public Integrator {
   bool tracks_run_error() const override { return true; }
   void propagate_run_error(const HeldBody& body, RunError& error) override;
   std::optional<StepWork> work(const HeldBody& body) const override;
-  Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
+  Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state) override;
   void archive(math::StateArchive& state) override;
   bool restores_completely() const override { return true; }
 

@@ -91,7 +91,7 @@ void HeldBody::attach(const std::vector<Attached>& couplings) {
   if (couplings_.attach(couplings)) ++version_;
 }
 
-HeldBody::Springs HeldBody::springs(const HandleForcing& h, const rod::StrainVector& q) const {
+HeldBody::Springs HeldBody::springs(const HandleMotion& h, const rod::StrainVector& q) const {
   Springs all{stiffness().asDiagonal(), damping()};
   if (!coupled()) return all;
   const Coupling::Springs more = read_couplings(h, {q, rod::StrainVector::Zero(size())}).springs;

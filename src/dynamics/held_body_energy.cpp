@@ -5,10 +5,10 @@
 namespace spring_workbench::dynamics {
 
 template <int n>
-SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot,
+SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleMotions& handle, const math::Pack* q, const math::Pack* q_dot,
                                              EnergyBalance& out) const {
-  using math::Pack, math::Three;
-  const motion::FrameForcing<Pack>& h = handle.of_H;
+  using math::Pack, math::Vec3;
+  const motion::BodyFrameMotion<Pack>& h = handle.of_H;
   Pack springs[n];
   spring_forces<n>(q, q_dot, springs);
   rod::TipOf<Pack> tip;  // NOLINT(cppcoreguidelines-pro-type-member-init): rigid() sets all of it
@@ -19,21 +19,21 @@ SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleForcings& handle, const
     elastic += 0.5 * pull * q[i];
     damped += (springs[i] + pull) * q_dot[i];
   }
-  const Three<Pack> v = h.v_B + math::cross(h.w_B, object.p_HO) + object.v_rel,
-                    spin = math::three_by_three(body_.inertia_O) * object.w_O;
-  const Three<Pack> about_H = object.R_HO * spin + body_.mass * math::cross(object.p_HO, v);
-  const Three<Pack> g = gravity_ * Three<Pack>{h.R_WB.x.z, h.R_WB.y.z, h.R_WB.z.z};
-  const Three<Pack> changed = h.a_B - g - math::cross(h.w_B, h.v_B);  // rate of h.v_B
+  const Vec3<Pack> v = h.v_B + math::cross(h.w_B, object.p_HO) + object.v_rel,
+                   spin = math::mat3x3(body_.inertia_O) * object.w_O;
+  const Vec3<Pack> about_H = object.R_HO * spin + body_.mass * math::cross(object.p_HO, v);
+  const Vec3<Pack> g = gravity_ * Vec3<Pack>{h.R_WB.x.z, h.R_WB.y.z, h.R_WB.z.z};
+  const Vec3<Pack> changed = h.a_B - g - math::cross(h.w_B, h.v_B);  // rate of h.v_B
   out.energy = elastic + 0.5 * (body_.mass * dot(v, v) + dot(object.w_O, spin)) +
                body_.mass * (dot(g, object.p_HO) - dot(v, h.v_B)) - dot(about_H, h.w_B);
   out.power =
       damped - dot(about_H, h.alpha_B) + body_.mass * (dot(h.w_B, math::cross(object.p_HO, g)) - dot(v, changed));
   if (!loaded_) return;
-  out.power += dot(math::transposed(h.R_WB, math::three(load_W_.force)), object.v_rel) +
-               dot(math::transposed(h.R_WB, math::three(load_W_.moment)), object.R_HO * object.w_O - h.w_B);
+  out.power += dot(math::transposed(h.R_WB, math::vec3(load_W_.force)), object.v_rel) +
+               dot(math::transposed(h.R_WB, math::vec3(load_W_.moment)), object.R_HO * object.w_O - h.w_B);
 }
 
-EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot) const {
+EnergyBalance HeldBody::energy_balance(const HandleMotions& h, const math::Pack* q, const math::Pack* q_dot) const {
   EnergyBalance all = math::by_size(size(), [&](auto size) {
     EnergyBalance out;  // NOLINT(cppcoreguidelines-pro-type-member-init): balance() sets all of it
     balance<decltype(size)::value>(h, q, q_dot, out);
@@ -45,7 +45,7 @@ EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack
       state.q[i] = q[i][k];
       state.q_dot[i] = q_dot[i][k];
     }
-    const HandleForcing at = h.at(k);
+    const HandleMotion at = h.at(k);
     const Couplings::Reading others = read_couplings(at, state);
     const Vector3d p_HO_W = object(at, state).X.translation() - at.X_WH.translation();
     const Wrench& pull = others.pull_W;
@@ -56,18 +56,18 @@ EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack
   return all;
 }
 
-Couplings::Reading HeldBody::read_couplings(const HandleForcing& h, const StrainState& state) const {
+Couplings::Reading HeldBody::read_couplings(const HandleMotion& h, const StrainState& state) const {
   if (!coupled()) return {};
   const StrainState full = full_state(h.t, state);
   const rod::TipOf<double>& tip = this->tip(full.q.data(), full.q_dot.data(), false);
-  math::Three<double> w = math::zero<double>(), v = w;
+  math::Vec3<double> w = math::zero<double>(), v = w;
   rod::add_tip_motion(tip, coordinates_.count(), full.q_dot.data(), w, v);
-  const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_);
+  const math::Vec3<double> r_EO = tip.R_HE * math::vec3(p_EO_);
   const Matrix3d& R_WH = h.X_WH.linear();
   return couplings_.read(h.t, h.relative_motions,
-                         {tip.R_HE * math::three_by_three(R_EO_), tip.p_HE + r_EO, v + math::cross(w, r_EO), w},
-                         {math::three_by_three(R_WH), math::three(h.X_WH.translation()),
-                          math::three(Vector3d(R_WH.transpose() * h.v_WH_W)), math::three(h.w_WH_H)});
+                         {tip.R_HE * math::mat3x3(R_EO_), tip.p_HE + r_EO, v + math::cross(w, r_EO), w},
+                         {math::mat3x3(R_WH), math::vec3(h.X_WH.translation()),
+                          math::vec3(Vector3d(R_WH.transpose() * h.v_WH_W)), math::vec3(h.w_WH_H)});
 }
 
 double HeldBody::elastic_energy(double t, const StrainState& state) const {

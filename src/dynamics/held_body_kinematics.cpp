@@ -25,7 +25,7 @@ HeldBody::Kinematics HeldBody::kinematics(const StrainState& full) const {
   const rod::TipOf<double>& of_tip = tip(full.q.data(), full.q_dot.data(), false);
   Kinematics k;
   const Matrix3d R_HE = math::matrix(of_tip.R_HE, 0);
-  const math::Three<double> r_EO = of_tip.R_HE * math::three(p_EO_);
+  const math::Vec3<double> r_EO = of_tip.R_HE * math::vec3(p_EO_);
   k.R_HO = R_HE * R_EO_;
   k.linear.resize(3, full.q.size());
   k.angular.resize(3, full.q.size());
@@ -75,7 +75,7 @@ rod::TwistJacobian HeldBody::object_jacobian(double t, const rod::StrainVector& 
   return J;
 }
 
-rod::StrainVector HeldBody::project_twist(const HandleForcing& h, const rod::StrainVector& q,
+rod::StrainVector HeldBody::project_twist(const HandleMotion& h, const rod::StrainVector& q,
                                           const Twist& V_WO_W) const {
   if (size() == 0) return rod::StrainVector::Zero(0);
   const motion::MotionState carried = object(h, {q, rod::StrainVector::Zero(size())});
@@ -90,7 +90,7 @@ rod::StrainVector HeldBody::project_twist(const HandleForcing& h, const rod::Str
   return M.llt().solve(p);
 }
 
-motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& state,
+motion::MotionState HeldBody::object(const HandleMotion& h, const StrainState& state,
                                      const rod::StrainVector* q_ddot) const {
   double q[rod::max_strain_coordinates], rate[rod::max_strain_coordinates], acceleration[rod::max_strain_coordinates]{};
   coordinates_.scatter(state.q.data(), q);
@@ -99,22 +99,22 @@ motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& 
   if (returning()) coordinates_.prescribe(h.t, 0, q, rate, acceleration);
   const rod::TipOf<double>& tip = this->tip(q, rate, q_ddot != nullptr);
   // Of the tip, in the turning frame H.
-  math::Three<double> w = math::zero<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
+  math::Vec3<double> w = math::zero<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
   rod::add_tip_motion(tip, coordinates_.count(), rate, w, v);
   if (q_ddot != nullptr) rod::add_tip_motion(tip, coordinates_.count(), acceleration, alpha, a);
-  const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_), p_HO = tip.p_HE + r_EO,
-                            v_rel = v + math::cross(w, r_EO);
-  const math::Three<double> w_H = math::three(h.w_WH_H), alpha_H = math::three(h.alpha_WH_H);
-  const math::ThreeByThree<double> R_WH = math::three_by_three(h.X_WH.linear());
+  const math::Vec3<double> r_EO = tip.R_HE * math::vec3(p_EO_), p_HO = tip.p_HE + r_EO,
+                           v_rel = v + math::cross(w, r_EO);
+  const math::Vec3<double> w_H = math::vec3(h.w_WH_H), alpha_H = math::vec3(h.alpha_WH_H);
+  const math::Mat3x3<double> R_WH = math::mat3x3(h.X_WH.linear());
   motion::MotionState s;
-  s.X.linear() = math::matrix(R_WH * (tip.R_HE * math::three_by_three(R_EO_)), 0);
+  s.X.linear() = math::matrix(R_WH * (tip.R_HE * math::mat3x3(R_EO_)), 0);
   s.X.translation() = h.X_WH.translation() + math::vector(R_WH * p_HO);
   s.velocity.linear = h.v_WH_W + math::vector(R_WH * (math::cross(w_H, p_HO) + v_rel));
   s.velocity.angular = math::vector(R_WH * (w_H + w));
   if (q_ddot != nullptr) {
-    const math::Three<double> of_O = a + math::cross(alpha, r_EO) + math::cross(w, math::cross(w, r_EO));
-    const math::Three<double> a_H = math::three(h.proper_acceleration_H) + of_O + math::cross(alpha_H, p_HO) +
-                                    math::cross(w_H, math::cross(w_H, p_HO) + 2.0 * v_rel);
+    const math::Vec3<double> of_O = a + math::cross(alpha, r_EO) + math::cross(w, math::cross(w, r_EO));
+    const math::Vec3<double> a_H = math::vec3(h.proper_acceleration_H) + of_O + math::cross(alpha_H, p_HO) +
+                                   math::cross(w_H, math::cross(w_H, p_HO) + 2.0 * v_rel);
     s.acceleration.linear = math::vector(R_WH * a_H) - gravity_ * Vector3d::UnitZ();
     s.acceleration.angular = math::vector(R_WH * (alpha_H + math::cross(w_H, w) + alpha));
   }

@@ -13,11 +13,11 @@
 namespace spring_workbench::dynamics {
 StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                  StrainState& state) {
-  const HandleForcing end = body.forcing(handle, t + h);
-  const rod::StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
+  const HandleMotion end = body.motion_at(handle, t + h);
+  const rod::StrainVector a_begin = body.acceleration(body.motion_at(handle, t), state.q, state.q_dot);
   StrainState next = state;
   rod::StrainVector a = body.acceleration(end, next.q, next.q_dot);
-  const LinearisedMotion& motion = last_.emplace(body, end, body.forcing(handle, t + h + math::Pack{}), next, a);
+  const LinearisedMotion& motion = last_.emplace(body, end, body.motion_at(handle, t + h + math::Pack{}), next, a);
   const math::ImplicitMatrix matrix = motion.implicit(h);
   double last_change = 0.0, first_change = 0.0;
   bool converged = false;
@@ -64,18 +64,18 @@ LinearisedMotion rodas_steps(const HeldBody& body, const motion::FrameMotion& ha
   using Column = Eigen::Matrix<double, n, 1>;
   using Columns = Eigen::Matrix<double, n, columns>;
   const double dt = time_difference * h[0];
-  const auto a = accelerations(body, body.forcing(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
+  const auto a = accelerations(body, body.motion_at(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
                                math::side_by_side<n, math::pack_size>(q), math::side_by_side<n, math::pack_size>(v));
   Column by_time;
   for (int i = 0; i < n; ++i) by_time[i] = (-3.0 * a(i, 0) + 4.0 * a(i, 1) - a(i, 2)) / (2.0 * dt);
-  const LinearisedMotion motion(body, body.forcing(handle, t), body.forcing(handle, t + math::Pack{}),
+  const LinearisedMotion motion(body, body.motion_at(handle, t), body.motion_at(handle, t + math::Pack{}),
                                 {q.col(0), v.col(0)}, a.col(0));
   const math::ImplicitMatrix first = motion.implicit(math::Rodas::gamma * h[0]),
                              last = motion.implicit(math::Rodas::gamma * h[columns - 1]);
   const auto acceleration = [&](double c, const Columns& q_c, const Columns& v_c) {
     if (c == 0.0) return math::side_by_side<n, columns>(a);
     const double longer = h[0], shorter = h[columns - 1];
-    return accelerations(body, body.forcing(handle, t + c * math::Pack{longer, shorter, shorter, shorter}), q_c, v_c);
+    return accelerations(body, body.motion_at(handle, t + c * math::Pack{longer, shorter, shorter, shorter}), q_c, v_c);
   };
   const auto solve = [&](const Columns& b) {
     Columns x;
@@ -118,7 +118,7 @@ void Rosenbrock::propagate_deviation(const HeldBody& body, const motion::FrameMo
 }
 
 /// The deviations under generalised forces of 1, one per column.
-Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleForcing& handle, double h,
+Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleMotion& handle, double h,
                                           const StrainState& state) {
   return math::by_size(body.size(), [&](auto size) -> Response {
     using Columns = Eigen::Matrix<double, decltype(size)::value, decltype(size)::value>;

@@ -34,7 +34,7 @@ class Rosenbrock final : public Integrator {
                     StrainState& state) override;
   void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
-  Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
+  Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state) override;
 
  private:
   std::optional<LinearisedMotion> last_;  ///< of the last step

@@ -45,11 +45,11 @@ class SpringDampers {
 
 /// The object's motion if the fork were rigid.
 struct Carried {
-  HandleForcing handle;
+  HandleMotion handle;
   motion::MotionState object;
   Matrix3d I_W;
 
-  Carried(const HeldBody& body, const motion::FrameMotion& motion, double t) : handle(body.forcing(motion, t)) {
+  Carried(const HeldBody& body, const motion::FrameMotion& motion, double t) : handle(body.motion_at(motion, t)) {
     const StrainState straight = body.zero_state();
     object = body.object(handle, straight, &straight.q);
     I_W = object.X.linear() * body.body().inertia_O * object.X.linear().transpose();
@@ -70,7 +70,7 @@ struct Carried {
 /// back. The last one that touches is used, so that the object reaches the contact, which then carries its load.
 rod::StrainVector cut_back(const HeldBody& body, const Carried& begin, const Carried& end, const StrainState& state,
                            const rod::StrainVector& target) {
-  const auto pose = [&](const HandleForcing& handle, const rod::StrainVector& q) {
+  const auto pose = [&](const HandleMotion& handle, const rod::StrainVector& q) {
     return body.object(handle, {q, rod::StrainVector::Zero(q.size())}).X;
   };
   const RigidTransform here = pose(begin.handle, state.q);
@@ -141,7 +141,7 @@ void Paper::propagate_deviation(const HeldBody& body, const motion::FrameMotion&
   for (int i = 0; i < body.size(); ++i) dampers.of(i).step.carry(deviation.q[i], deviation.q_dot[i]);
 }
 
-Integrator::Response Paper::response(const HeldBody& body, const HandleForcing& handle, double h,
+Integrator::Response Paper::response(const HeldBody& body, const HandleMotion& handle, double h,
                                      const StrainState& state) {
   if (body.coupled()) return shared_.response(body, handle, h, state);
   const SpringDampers dampers(body, h);

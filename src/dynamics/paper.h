@@ -25,7 +25,7 @@ class Paper final : public Integrator {
                     StrainState& state) override;
   void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
-  Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
+  Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state) override;
   void archive(math::StateArchive& state) override { state(version_, t_, from_, target_, shared_); }
 
  private:

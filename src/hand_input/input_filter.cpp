@@ -130,7 +130,7 @@ void InputFilter::restart_gate(std::size_t hand) {
   input.dead_band.restart();
 }
 
-void InputFilter::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {
+void InputFilter::confirm_buttons(double t, const LocalTime& arrival, std::size_t hand) {
   hand_at(hand).playout.buttons(t, arrival);
 }
 
@@ -151,7 +151,7 @@ void InputFilter::note(AcceptedInput::Kind kind, std::size_t hand, double t, con
 
 double InputFilter::committed() const { return began_ ? simulation_.time() : kNever; }
 
-std::optional<double> InputFilter::next_stop(const LocalTime& now) const {
+std::optional<double> InputFilter::next_target(const LocalTime& now) const {
   if (target_) return target_;
   double known = -kNever, rests = kNever;
   for (const Hand& hand : hands_) {
@@ -166,17 +166,17 @@ std::optional<double> InputFilter::next_stop(const LocalTime& now) const {
   return silent && step_end <= rests ? std::make_optional(step_end) : std::nullopt;
 }
 
-simulation::AdvanceReport InputFilter::advance_to(double t, double pause) {
+simulation::AdvanceReport InputFilter::advance_to(double t, double pause_at) {
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     while (const auto release = hands_[hand].reacquisition.take_release(t)) releases_.emplace(*release, hand);
   }
   simulation::AdvanceReport report;
   const auto reach = [&](double end) {
     const double event = simulation_.next_event_time();
-    report.add(simulation_.advance_to(end, pause));
+    report.add(simulation_.advance_to(end, pause_at));
     began_ = true;
     const double left = simulation_.settings().hand_time_scale * (end - simulation_.time());
-    const bool is_interrupted = pause < end && left >= same_time;
+    const bool is_interrupted = pause_at < end && left >= same_time;
     target_ = is_interrupted ? std::make_optional(end) : std::nullopt;
     if (!is_interrupted && event > end) note(AcceptedInput::Kind::rest, 0, end);
     return !is_interrupted;

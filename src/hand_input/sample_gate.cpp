@@ -25,16 +25,9 @@ double angle_between(const Quaterniond& a, const Quaterniond& b) {
 }  // namespace
 
 std::string to_string(GateResult result) {
-  static const char* const names[] = {"accepted",
-                                      "relocation",
-                                      "not finite",
-                                      "not a unit quaternion",
-                                      "too far",
-                                      "stamp not later",
-                                      "too close to the last",
-                                      "too fast",
-                                      "turns too fast",
-                                      "out of view"};
+  static const char* const names[] = {"accepted",         "relocation",      "not finite",      "not a unit quaternion",
+                                      "position too far", "stamp not later", "stamp too close", "too fast",
+                                      "turns too fast",   "out of view"};
   return names[static_cast<std::size_t>(result)];
 }
 
@@ -60,7 +53,7 @@ std::string complaint(GateResult result, const RawSample& sample, const InputSet
              " m";
     case GateResult::not_later:
       return begin + stamp + "is not later than that of the last sample";
-    case GateResult::too_close:
+    case GateResult::stamp_too_close:
       return begin + stamp + "is less than a quarter of the usual interval after that of the last sample";
     case GateResult::too_fast:
       return begin + position + "cannot be reached from the last one at input.max_speed = " + text(settings.max_speed) +
@@ -89,7 +82,7 @@ SampleGate::SampleGate(const InputSettings& settings, double dropout_after)
 std::string complaint_about_gaps(const GateCounts& counts, double dropout_after) {
   if (counts.dropouts < 2 || 2 * counts.dropouts < counts.accepted) return "";
   return "samples come " + text(counts.newest_dropout) + " s apart, more than dropout_after = " + text(dropout_after) +
-         " s: each counts as the return of a lost hand, which does not move; increase dropout_after";
+         " s: each gap counts as a dropout, so the hand does not move; increase dropout_after";
 }
 
 void SampleGate::restart() {
@@ -113,7 +106,7 @@ GateResult SampleGate::judge(const RawSample& sample) const {
   const GateResult result = check_pose(sample, settings_);
   if (!usable(result) || !newest_) return result;
   if (!(sample.t - newest_->t >= same_time)) return GateResult::not_later;
-  if (sample.t - newest_->t < std::max(closest, closest_share * interval_)) return GateResult::too_close;
+  if (sample.t - newest_->t < std::max(closest, closest_share * interval_)) return GateResult::stamp_too_close;
   if (is_out_of_view(sample)) return GateResult::out_of_view;
   return judge_move(*newest_, sample);
 }

@@ -100,8 +100,8 @@ void Replayer::apply(const Change& change) {
   if (hash != change.hash_before) {
     throw validation::InputError("~changes: the state before \"" + change.what + "\" at " +
                                  std::to_string(simulation_.front().time()) +
-                                 " s differs from the recorded one: hash " + math::to_hex(hash) + ", recorded " +
-                                 math::to_hex(change.hash_before));
+                                 " s differs from the recorded one (other scene, settings or version?): hash " +
+                                 math::to_hex(hash) + ", recorded " + math::to_hex(change.hash_before));
   }
   if (change.state == simulation::SimulationState()) return;
   const bool again = repeat(change);

@@ -59,9 +59,9 @@ PredictionError LookAhead::compare(const simulation::Simulation& committed) {
     const auto a = std::find_if(before_.begin(), before_.end(), same);
     const auto b = std::find_if(now.begin(), now.end(), same);
     if (a == before_.end() || b == now.end() || !(a->at.t <= shown.at.t) || !(a->at.t < b->at.t)) continue;
-    const auto in_own_axes = [](const Held& h) { return Vector3d(h.at.X.linear().transpose() * h.V_WO_W.angular); };
-    const motion::MotionSegment path(a->at, a->V_WO_W.linear, in_own_axes(*a), b->at, b->V_WO_W.linear,
-                                     in_own_axes(*b));
+    const auto body_rate_state = [](const Held& h) { return Vector3d(h.at.X.linear().transpose() * h.V_WO_W.angular); };
+    const motion::MotionSegment path(a->at, a->V_WO_W.linear, body_rate_state(*a), b->at, b->V_WO_W.linear,
+                                     body_rate_state(*b));
     const RigidTransform X = path.at(shown.at.t).X;
     const double error = (X.translation() - shown.at.X.translation()).norm();
     worst.position = std::max(worst.position, error);

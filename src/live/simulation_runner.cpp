@@ -77,8 +77,8 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   if (!filter_.is_interrupted()) work_ = {};
   CycleReport report;
   report.time_skipped = times_.take_skipped();
-  std::optional<double> stop = filter_.next_stop(now);
-  for (bool silent = true; silent && stop; stop = filter_.next_stop(now)) {
+  std::optional<double> stop = filter_.next_target(now);
+  for (bool silent = true; silent && stop; stop = filter_.next_target(now)) {
     silent = *stop < simulation_.next_event_time() && pace_.now() - begin < longest_cycle;
     const double pause = pace_.end_of_cycle(filter_.committed(), *stop, simulation_.settings().dynamics.step);
     report.add({filter_.advance_to(*stop, pause), 0.0, ahead_.compare(simulation_)});
@@ -102,7 +102,7 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
     while (!input.waiting.empty()) {
       const auto* epoch = std::get_if<NewEpoch>(&input.waiting.front());
       const bool restarts = epoch != nullptr && !joins(input, *epoch);
-      if (restarts && simulated_time_ && filter_.next_stop(now)) break;
+      if (restarts && simulated_time_ && filter_.next_target(now)) break;
       if (times_.knows(input.hand) || epoch != nullptr) feed(input, input.waiting.front());  // else from before a jump
       input.waiting.pop_front();
     }
@@ -182,7 +182,7 @@ void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
 }
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
-  filter_.buttons_known(time_of(input, known.t), known.arrival, input.hand);
+  filter_.confirm_buttons(time_of(input, known.t), known.arrival, input.hand);
 }
 
 void SimulationRunner::push(HandInput& input, StylusWrench wrench, double t) {

@@ -25,7 +25,7 @@ Matrix3d skew(const Vector3d& v) {
 }
 
 Matrix3d exp_so3(const Vector3d& theta) {
-  return matrix(exp_so3(three(theta), so3_coefficients(theta.squaredNorm())), 0);
+  return matrix(exp_so3(vec3(theta), so3_coefficients(theta.squaredNorm())), 0);
 }
 
 Vector3d log_so3(const Matrix3d& R) {

@@ -31,13 +31,13 @@ MotionSegment::MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vec
 
 template <typename S>
 SPRING_WORKBENCH_INLINE MotionSegment::Turn<S> MotionSegment::turn(const S& u, double per_second) const {
-  const math::Three<S> theta = rotation_.value(u);
-  const math::Three<S> theta_dot = per_second * rotation_.first(u);
-  const math::Three<S> theta_ddot = (per_second * per_second) * rotation_.second(u);
+  const math::Vec3<S> theta = rotation_.value(u);
+  const math::Vec3<S> theta_dot = per_second * rotation_.first(u);
+  const math::Vec3<S> theta_ddot = (per_second * per_second) * rotation_.second(u);
   const math::So3CoefficientsOf<S> k = math::so3_coefficients(dot(theta, theta));
   // J_r v = v − b θ×v + c θ×(θ×v), and its derivative along the motion with v = θ̇.
-  const math::Three<S> s = math::cross(theta, theta_dot), s_s = math::cross(theta, s),
-                       a = math::cross(theta, theta_ddot);
+  const math::Vec3<S> s = math::cross(theta, theta_dot), s_s = math::cross(theta, s),
+                      a = math::cross(theta, theta_ddot);
   const S t_dot = 2.0 * dot(theta, theta_dot);
   const S b_dot = k.b_slope * t_dot, c_dot = k.c_slope * t_dot;
   return {math::exp_so3(theta, k), theta_dot - k.b * s + k.c * s_s,
@@ -51,21 +51,21 @@ MotionSegment MotionSegment::of_frame(const RigidTransform& X_BC) const {
   return moved;
 }
 
-FrameForcing<math::Pack> MotionSegment::at_frame(const FrameForcing<math::Pack>& f) const {
-  const math::ThreeByThree<double> R = math::three_by_three(X_BC_.linear());
-  const math::Three<double> p = math::three(X_BC_.translation());
-  const math::Three<math::Pack> a = f.a_B + math::cross(f.alpha_B, p) + math::cross(f.w_B, math::cross(f.w_B, p));
+BodyFrameMotion<math::Pack> MotionSegment::at_frame(const BodyFrameMotion<math::Pack>& f) const {
+  const math::Mat3x3<double> R = math::mat3x3(X_BC_.linear());
+  const math::Vec3<double> p = math::vec3(X_BC_.translation());
+  const math::Vec3<math::Pack> a = f.a_B + math::cross(f.alpha_B, p) + math::cross(f.w_B, math::cross(f.w_B, p));
   return {f.R_WB * R, math::transposed(R, f.v_B + math::cross(f.w_B, p)), math::transposed(R, f.w_B),
           math::transposed(R, f.alpha_B), math::transposed(R, a)};
 }
 
-OwnAxesMotion MotionSegment::in_own_axes(double t) const {
-  const OwnAxesMotion of_B = of_samples(t);
+BodyRateState MotionSegment::body_rate_state(double t) const {
+  const BodyRateState of_B = of_samples(t);
   if (!has_offset_) return of_B;
   const Matrix3d& R_WB = of_B.X.linear();
   const Vector3d& p = X_BC_.translation();
   const Vector3d& w = of_B.w_B;
-  OwnAxesMotion m;
+  BodyRateState m;
   m.X = of_B.X * X_BC_;
   m.v_W = of_B.v_W + R_WB * w.cross(p);
   m.a_W = of_B.a_W + R_WB * (of_B.alpha_B.cross(p) + w.cross(w.cross(p)));
@@ -74,13 +74,13 @@ OwnAxesMotion MotionSegment::in_own_axes(double t) const {
   return m;
 }
 
-FrameForcing<math::Pack> MotionSegment::forcing(const math::Pack& t, double gravity) const {
-  const FrameForcing<math::Pack> of_B = of_samples(t, gravity);
+BodyFrameMotion<math::Pack> MotionSegment::body_frame_motion(const math::Pack& t, double gravity) const {
+  const BodyFrameMotion<math::Pack> of_B = of_samples(t, gravity);
   return has_offset_ ? at_frame(of_B) : of_B;
 }
 
-OwnAxesMotion MotionSegment::of_samples(double t) const {
-  OwnAxesMotion m;
+BodyRateState MotionSegment::of_samples(double t) const {
+  BodyRateState m;
   m.X = X_a_;
   if (!moving_) return m;
 
@@ -97,11 +97,11 @@ OwnAxesMotion MotionSegment::of_samples(double t) const {
   return m;
 }
 
-SPRING_WORKBENCH_WIDE FrameForcing<math::Pack> MotionSegment::of_samples(const math::Pack& t, double gravity) const {
-  const math::ThreeByThree<double> R_a = math::three_by_three(X_a_.linear());
-  const math::Three<double> up = gravity * math::Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
-  const math::Three<math::Pack> zero = math::zero<math::Pack>();
-  FrameForcing<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero, zero + up};
+SPRING_WORKBENCH_WIDE BodyFrameMotion<math::Pack> MotionSegment::of_samples(const math::Pack& t, double gravity) const {
+  const math::Mat3x3<double> R_a = math::mat3x3(X_a_.linear());
+  const math::Vec3<double> up = gravity * math::Vec3<double>{R_a.x.z, R_a.y.z, R_a.z.z};
+  const math::Vec3<math::Pack> zero = math::zero<math::Pack>();
+  BodyFrameMotion<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero, zero + up};
   if (!moving_) return f;
   const double per_second = 1.0 / (end_ - begin_);
   const math::Pack u = (t - begin_) * per_second;
@@ -118,7 +118,7 @@ SPRING_WORKBENCH_WIDE FrameForcing<math::Pack> MotionSegment::of_samples(const m
 }
 
 MotionState MotionSegment::at(double t) const {
-  const OwnAxesMotion m = in_own_axes(t);
+  const BodyRateState m = body_rate_state(t);
   MotionState state;
   state.X = m.X;
   state.velocity.linear = m.v_W;

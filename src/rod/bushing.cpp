@@ -26,13 +26,13 @@ StrainVector Bushing::damping(const PerDof& c, const PerDof& k) const {
 
 template <typename S>
 SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S>& out) const {
-  const math::Three<S> phi{q[2], q[3], q[4]}, phi_dot{q_dot[2], q_dot[3], q_dot[4]}, zero = math::zero<S>();
+  const math::Vec3<S> phi{q[2], q[3], q[4]}, phi_dot{q_dot[2], q_dot[3], q_dot[4]}, zero = math::zero<S>();
   const S t = dot(phi, phi), one = S{} + 1.0;
   const math::So3CoefficientsOf<S> k = math::so3_coefficients(t);
   out.R_HE = math::exp_so3(phi, k);
   out.p_HE = {q[0], q[1], q[5] + length()};
   // The left Jacobian, for rates in the axes of H: (1 − c θ²) I + b [φ]× + c φ φᵀ.
-  const math::ThreeByThree<S> J = math::symmetric_and_skew(k.c, S(1.0 - k.c * t), k.b, phi);
+  const math::Mat3x3<S> J = math::symmetric_and_skew(k.c, S(1.0 - k.c * t), k.b, phi);
   out.angular[0] = out.angular[1] = out.angular[5] = zero;
   out.angular[2] = J.x;
   out.angular[3] = J.y;
@@ -42,7 +42,7 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
   out.linear[2] = out.linear[3] = out.linear[4] = zero;
   out.linear[5] = {S{}, S{}, one};
   // d/dt (left Jacobian) φ̇; terms along φ̇ × φ̇ vanish.
-  const math::Three<S> s = cross(phi, phi_dot);
+  const math::Vec3<S> s = cross(phi, phi_dot);
   const S t_dot = 2.0 * dot(phi, phi_dot);
   out.angular_bias = (k.b_slope * t_dot) * s + (k.c_slope * t_dot) * cross(phi, s) + k.c * cross(phi_dot, s);
   out.linear_bias = zero;

@@ -7,7 +7,7 @@ namespace spring_workbench::rod {
 /// A quaternion with vector part v and scalar part w, for one number or several at once.
 template <typename S>
 struct QuaternionOf {
-  math::Three<S> v;
+  math::Vec3<S> v;
   S w;
 };
 template <typename S>
@@ -25,7 +25,7 @@ SPRING_WORKBENCH_INLINE QuaternionOf<S> normalised(const QuaternionOf<S>& q) {
   return {f * q.v, f * q.w};
 }
 template <typename S>
-SPRING_WORKBENCH_INLINE math::ThreeByThree<S> rotation_matrix(const QuaternionOf<S>& q) {
+SPRING_WORKBENCH_INLINE math::Mat3x3<S> rotation_matrix(const QuaternionOf<S>& q) {
   return math::symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
 }
 
@@ -36,7 +36,7 @@ template <typename S>
 class SegmentRotation {
  public:
   /// The strain over the segment of length h is (a + b u) / h for u = −½ … ½. `angle`: a bound of |a| + |b| / 2 [rad].
-  SPRING_WORKBENCH_INLINE SegmentRotation(const math::Three<S>& a, const math::Three<S>& b, double angle) {
+  SPRING_WORKBENCH_INLINE SegmentRotation(const math::Vec3<S>& a, const math::Vec3<S>& b, double angle) {
     pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : max_pairs;
     c_[0] = {math::zero<S>(), S{} + 1.0};
     c_[1] = {0.5 * a, S{}};
@@ -64,7 +64,7 @@ class SegmentRotation {
  private:
   static constexpr int max_pairs = 11;
 
-  SPRING_WORKBENCH_INLINE static QuaternionOf<S> times(const QuaternionOf<S>& q, const math::Three<S>& v) {
+  SPRING_WORKBENCH_INLINE static QuaternionOf<S> times(const QuaternionOf<S>& q, const math::Vec3<S>& v) {
     return {q.w * v + math::cross(q.v, v), S{} - dot(q.v, v)};
   }
 

@@ -58,12 +58,12 @@ StrainVector StaticDeformation::force(const TipKinematics& tip, const Vector6d& 
 StaticDeformation::Forces StaticDeformation::forces(const math::Pack* q) const {
   const math::Pack none{}, at_rest[max_strain_coordinates]{};
   const auto in_lanes = [&](const Vector3d& v) {
-    return math::Three<math::Pack>{v.x() + none, v.y() + none, v.z() + none};
+    return math::Vec3<math::Pack>{v.x() + none, v.y() + none, v.z() + none};
   };
   TipOf<math::Pack> tip;  // NOLINT(cppcoreguidelines-pro-type-member-init): tip() sets all of it
   shape_.tip(q, at_rest, tip);
-  const math::Three<math::Pack> force = in_lanes(load_H_.force),
-                                moment = in_lanes(load_H_.moment) + cross(tip.R_HE * in_lanes(p_EO_), force);
+  const math::Vec3<math::Pack> force = in_lanes(load_H_.force),
+                               moment = in_lanes(load_H_.moment) + cross(tip.R_HE * in_lanes(p_EO_), force);
   Forces f{};
   for (int c = 0; c < shape_.size(); ++c) {
     f[static_cast<std::size_t>(c)] = dot(tip.linear[c], force) + dot(tip.angular[c], moment);

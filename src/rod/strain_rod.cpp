@@ -69,20 +69,20 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   const S stretched = 1.0 + q[stretch().begin], stretching = q_dot[stretch().begin];
   const double h = length() / count;
   const math::GaussLegendre<nodes>& gauss = rule<nodes>();
-  const math::Three<S> zero = math::zero<S>();
+  const math::Vec3<S> zero = math::zero<S>();
 
   // Integrals from the handle to the start of the segment, finally to the tip. Velocities in H axes.
   QuaternionOf<S> turned{zero, S{} + 1.0};
-  math::Three<S> p = zero;  // ∫ d3 (position at unit stretch)
-  math::Three<S> w = zero;  // ∫ R k̇
+  math::Vec3<S> p = zero;  // ∫ d3 (position at unit stretch)
+  math::Vec3<S> w = zero;  // ∫ R k̇
   // Moments about the handle, which are shifted to the tip at the end: ∫ f × (p_tip − p) = (∫ f) × p_tip − ∫ f × p.
   // Order: d1 and d2, the same times σ = −1 … 1 along the rod, d3.
-  math::Three<S> f[5] = {zero, zero, zero, zero, zero};          // ∫ P_j R e
-  math::Three<S> f_cross_p[5] = {zero, zero, zero, zero, zero};  // ∫ P_j R e × p
-  math::Three<S> bias = zero;                                    // ∫ w × R k̇
-  math::Three<S> bias_cross_p = zero;                            // ∫ (w × R k̇) × p
-  math::Three<S> centripetal = zero;                             // ∫ w × (w × d3)
-  math::Three<S> coriolis = zero;                                // ∫ w × d3
+  math::Vec3<S> f[5] = {zero, zero, zero, zero, zero};          // ∫ P_j R e
+  math::Vec3<S> f_cross_p[5] = {zero, zero, zero, zero, zero};  // ∫ P_j R e × p
+  math::Vec3<S> bias = zero;                                    // ∫ w × R k̇
+  math::Vec3<S> bias_cross_p = zero;                            // ∫ (w × R k̇) × p
+  math::Vec3<S> centripetal = zero;                             // ∫ w × (w × d3)
+  math::Vec3<S> coriolis = zero;                                // ∫ w × d3
 
   for (int segment = 0; segment < count; ++segment) {
     const double s_begin = segment * h;
@@ -90,23 +90,23 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
                                       angle / count);
     const auto ends = rotation.at(0.5);
     const QuaternionOf<S> to_middle = turned * conjugate(ends.before);
-    math::ThreeByThree<S> R[nodes];
+    math::Mat3x3<S> R[nodes];
     for (int i = 0; i < (nodes + 1) / 2; ++i) {
       const auto both = rotation.at(0.5 - gauss.nodes[i]);
       R[i] = rotation_matrix(to_middle * both.before);
       R[nodes - 1 - i] = rotation_matrix(to_middle * both.after);
     }
     turned = to_middle * ends.after;
-    math::Three<S> rates[nodes];
+    math::Vec3<S> rates[nodes];
     for (int i = 0; i < nodes; ++i) {
       rates[i] = R[i] * (k_dot.value + (s_begin + gauss.nodes[i] * h - 0.5 * length()) * k_dot.slope);
     }
 
-    math::Three<S> p_rise = zero, w_rise = zero;
+    math::Vec3<S> p_rise = zero, w_rise = zero;
     for (int i = 0; i < nodes; ++i) {
       const double weight = h * gauss.weights[i];
       const double sigma = 2.0 * (s_begin + gauss.nodes[i] * h) / length() - 1.0;
-      math::Three<S> p_i = p, w_i = w;
+      math::Vec3<S> p_i = p, w_i = w;
       for (int j = 0; j < nodes; ++j) {
         const double part = h * gauss.cumulative(i, j);
         p_i += part * R[j].z;
@@ -114,8 +114,8 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
       }
       p_rise += weight * R[i].z;
       w_rise += weight * rates[i];
-      const math::Three<S> d1 = weight * R[i].x, d2 = weight * R[i].y, d3 = weight * R[i].z;
-      const math::Three<S> m1 = cross(d1, p_i), m2 = cross(d2, p_i);
+      const math::Vec3<S> d1 = weight * R[i].x, d2 = weight * R[i].y, d3 = weight * R[i].z;
+      const math::Vec3<S> m1 = cross(d1, p_i), m2 = cross(d2, p_i);
       f[0] += d1;
       f[1] += d2;
       f_cross_p[0] += m1;
@@ -128,10 +128,10 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
       }
       f[4] += d3;
       f_cross_p[4] += cross(d3, p_i);
-      const math::Three<S> turning = weight * cross(w_i, rates[i]);
+      const math::Vec3<S> turning = weight * cross(w_i, rates[i]);
       bias += turning;
       bias_cross_p += cross(turning, p_i);
-      const math::Three<S> w_cross_d3 = cross(w_i, d3);
+      const math::Vec3<S> w_cross_d3 = cross(w_i, d3);
       coriolis += w_cross_d3;
       centripetal += cross(w_i, w_cross_d3);
     }
@@ -185,7 +185,7 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   const int count = segments(angle);
   const double h = s / count;
   QuaternionOf<double> turned{math::zero<double>(), 1.0};
-  math::Three<double> p = math::zero<double>();
+  math::Vec3<double> p = math::zero<double>();
   for (int segment = 0; segment < count; ++segment) {
     const SegmentRotation<double> rotation(h * (k.value + ((segment + 0.5) * h - 0.5 * length()) * k.slope),
                                            (h * h) * k.slope, angle / count);

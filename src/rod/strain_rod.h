@@ -26,7 +26,7 @@ class StrainRod final : public ShapeModel {
   /// Strain of the rod along its length: `value + slope (s − L/2)`.
   template <typename S>
   struct LinearStrain {
-    math::Three<S> value, slope;
+    math::Vec3<S> value, slope;
   };
   template <typename S>
   LinearStrain<S> curvature(const S* q) const;

@@ -12,15 +12,15 @@ constexpr int n = max_strain_coordinates;
 
 /// Rotation vector of each lane.
 template <typename S>
-math::Three<S> log_of(const math::ThreeByThree<S>& R) {
-  math::Three<S> theta{};
-  for (int i = 0; i < math::lanes<S>; ++i) math::set_lane(theta, i, math::three(math::log_so3(math::matrix(R, i))));
+math::Vec3<S> log_of(const math::Mat3x3<S>& R) {
+  math::Vec3<S> theta{};
+  for (int i = 0; i < math::lanes<S>; ++i) math::set_lane(theta, i, math::vec3(math::log_so3(math::matrix(R, i))));
   return theta;
 }
 
 /// The outer product `a bᵀ`.
 template <typename S>
-math::ThreeByThree<S> times_transposed(const math::ThreeByThree<S>& a, const math::ThreeByThree<S>& b) {
+math::Mat3x3<S> times_transposed(const math::Mat3x3<S>& a, const math::Mat3x3<S>& b) {
   return {b.x.x * a.x + b.y.x * a.y + b.z.x * a.z, b.x.y * a.x + b.y.y * a.y + b.z.y * a.z,
           b.x.z * a.x + b.y.z * a.y + b.z.z * a.z};
 }
@@ -33,7 +33,7 @@ struct Columns {
   Columns(const TipOf<S>& tip, double length) {
     const double per_length = 1.0 / length;
     for (int j = 0; j < n; ++j) {
-      const math::Three<S>&v = tip.linear[j], &w = tip.angular[j];
+      const math::Vec3<S>&v = tip.linear[j], &w = tip.angular[j];
       const S column[n] = {per_length * v.x, per_length * v.y, per_length * v.z, w.x, w.y, w.z};
       for (int i = 0; i < n; ++i) by[j][i] = column[i];
     }
@@ -88,8 +88,8 @@ struct PoseError {
   S by[n];
   S squared;
 
-  PoseError(const TipOf<S>& tip, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, double length) {
-    const math::Three<S> p = (1.0 / length) * (p_HE - tip.p_HE), theta = log_of(times_transposed(R_HE, tip.R_HE));
+  PoseError(const TipOf<S>& tip, const math::Mat3x3<S>& R_HE, const math::Vec3<S>& p_HE, double length) {
+    const math::Vec3<S> p = (1.0 / length) * (p_HE - tip.p_HE), theta = log_of(times_transposed(R_HE, tip.R_HE));
     squared = dot(p, p) + dot(theta, theta);
     const S all[n] = {p.x, p.y, p.z, theta.x, theta.y, theta.z};
     for (int i = 0; i < n; ++i) by[i] = all[i];
@@ -112,7 +112,7 @@ struct Candidate {
   TipOf<double> tip;
   PoseError<double> pose_error;
 
-  Candidate(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
+  Candidate(const ShapeModel& shape, const math::Mat3x3<double>& R_HE, const math::Vec3<double>& p_HE,
             const Vector6d& strain)
       : q(strain), tip(tip_of(shape, strain)), pose_error(tip, R_HE, p_HE, shape.length()) {}
   static TipOf<double> tip_of(const ShapeModel& shape, const Vector6d& q) {
@@ -147,7 +147,7 @@ bool stay_in_range(const ShapeModel& shape, const Vector6d& q, Vector6d& change)
 
 /// Moves `q` to the pose, or as close to it as the rod's range and Jacobian allow. Stays on one solution branch by
 /// steps that are short enough for the Jacobian to predict the change. Returns the remaining squared distance.
-double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
+double approach(const ShapeModel& shape, const math::Mat3x3<double>& R_HE, const math::Vec3<double>& p_HE,
                 Vector6d& q) {
   Candidate at(shape, R_HE, p_HE, q);
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
@@ -172,7 +172,7 @@ double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE,
 
 /// Fits on the solution branch of `start` or, if that fails, on that of the straight rod; returns the one closer to the
 /// pose.
-Vector6d fit(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
+Vector6d fit(const ShapeModel& shape, const math::Mat3x3<double>& R_HE, const math::Vec3<double>& p_HE,
              const Vector6d& start) {
   Vector6d from_start = start, from_straight = Vector6d::Zero();
   if (!shape.admissible(from_start)) from_start.setZero();
@@ -184,8 +184,8 @@ Vector6d fit(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, co
 }  // namespace
 
 template <typename S>
-TipFit<S>::TipFit(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE,
-                  const math::Three<S>& v_HE, const math::Three<S>& w_HE, const S* start)
+TipFit<S>::TipFit(const ShapeModel& shape, const math::Mat3x3<S>& R_HE, const math::Vec3<S>& p_HE,
+                  const math::Vec3<S>& v_HE, const math::Vec3<S>& w_HE, const S* start)
     : shape_(shape) {
   find_strain(R_HE, p_HE, start);
   const double L = shape.length(), per_length = 1.0 / L;
@@ -201,10 +201,10 @@ TipFit<S>::TipFit(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, co
 }
 
 template <typename S>
-void TipFit<S>::find_strain(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, const S* start) {
+void TipFit<S>::find_strain(const math::Mat3x3<S>& R_HE, const math::Vec3<S>& p_HE, const S* start) {
   const S zero[n] = {};
   if (shape_.strain_is_pose()) {
-    const math::Three<S> phi = log_of(R_HE);
+    const math::Vec3<S> phi = log_of(R_HE);
     const S strain[n] = {p_HE.x, p_HE.y, phi.x, phi.y, phi.z, p_HE.z - shape_.length()};
     for (int i = 0; i < n; ++i) q[i] = strain[i];
     return shape_.tip(q, zero, tip);
@@ -213,14 +213,14 @@ void TipFit<S>::find_strain(const math::ThreeByThree<S>& R_HE, const math::Three
   shape_.tip(q, zero, tip);
   if (follow_slope(R_HE, p_HE)) return;
   for (int l = 0; l < math::lanes<S>; ++l) {
-    const math::ThreeByThree<double> R = math::three_by_three(math::matrix(R_HE, l));
-    set_lane(q, l, fit(shape_, R, math::three(math::vector(p_HE, l)), lane_of(start, l)));
+    const math::Mat3x3<double> R = math::mat3x3(math::matrix(R_HE, l));
+    set_lane(q, l, fit(shape_, R, math::vec3(math::vector(p_HE, l)), lane_of(start, l)));
   }
   shape_.tip(q, zero, tip);
 }
 
 template <typename S>
-bool TipFit<S>::follow_slope(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE) {
+bool TipFit<S>::follow_slope(const math::Mat3x3<S>& R_HE, const math::Vec3<S>& p_HE) {
   const S zero[n] = {};
   PoseError<S> pose_error(tip, R_HE, p_HE, shape_.length());
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
@@ -251,8 +251,8 @@ bool TipFit<S>::follow_slope(const math::ThreeByThree<S>& R_HE, const math::Thre
 }
 
 template <typename S>
-void TipFit<S>::wrench(const S (&generalised)[max_strain_coordinates], math::Three<S>& force,
-                       math::Three<S>& moment) const {
+void TipFit<S>::wrench(const S (&generalised)[max_strain_coordinates], math::Vec3<S>& force,
+                       math::Vec3<S>& moment) const {
   S scaled[n];
   exact_.solve_transposed(generalised, scaled);
   for (int l = 0; l < math::lanes<S>; ++l) {
@@ -260,7 +260,7 @@ void TipFit<S>::wrench(const S (&generalised)[max_strain_coordinates], math::Thr
     const Slope slope(Columns<S>(tip, shape_.length()), l, shape_.length());
     set_lane(scaled, l, slope.solve_transposed(lane_of(generalised, l)));
   }
-  force = (1.0 / shape_.length()) * math::Three<S>{scaled[0], scaled[1], scaled[2]};
+  force = (1.0 / shape_.length()) * math::Vec3<S>{scaled[0], scaled[1], scaled[2]};
   moment = {scaled[3], scaled[4], scaled[5]};
 }
 

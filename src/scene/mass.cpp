@@ -83,8 +83,8 @@ RigidMass repaired_mass(const RigidMass& given, const std::vector<geometry::Shap
   if (!(given.mass > 0.0)) {
     const RigidMass solid = solid_mass(shapes, density, where, warnings);
     if (!(solid.mass > 0.0))
-      validation::refuse(where, "mass", "0",
-                         "a number > 0 (the movable body has no solid shape from which to compute it)");
+      validation::refuse(where, "mass",
+                         "a number > 0 kg, since the movable body has no solid shape to compute it from");
     return solid;
   }
   const std::string defect = inertia_defect(given, shapes);

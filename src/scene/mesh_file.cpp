@@ -33,7 +33,7 @@ std::string package_file(const std::string& name, const std::string& where, cons
   const std::string rest = name.substr(std::string("package://").size());
   const std::string package = rest.substr(0, rest.find('/'));
   const std::string folder = find_package_in_ros_package_path(package);
-  if (folder.empty()) refuse_missing(where, key, name, "a package that can be found");
+  if (folder.empty()) refuse_missing(where, key, name, "a package on ROS_PACKAGE_PATH");
   return folder + rest.substr(package.size());
 }
 

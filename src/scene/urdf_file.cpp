@@ -114,8 +114,9 @@ void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& comp
   const std::string kind = element.ValueStr();
   if (kind == "inertial") {
     const std::optional<double> mass = file.unreadable_inertials[name] = mass_of(element);
-    file.warnings.push_back(where + "inertial cannot be read (" + complaint + "); the inertia of its shape is used, " +
-                            (mass ? "with a mass of " + validation::number_text(*mass) + " kg" : "with its mass"));
+    file.warnings.push_back(
+        where + "inertial cannot be read (" + complaint + "); the inertia of its shape is used, " +
+        (mass ? "with a mass of " + validation::number_text(*mass) + " kg" : "with the shape's mass"));
   } else {
     const TiXmlElement* shape = shape_of(element);
     if (is_urdf_shape(shape)) throw validation::InputError(where + kind + ": " + complaint);

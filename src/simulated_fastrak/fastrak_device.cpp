@@ -42,7 +42,7 @@ PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples) {
   for (const motion::StylusSample& sample : samples) {
     if (!(sample.X.translation().cwiseAbs().maxCoeff() < farthest_played)) {
       validation::refuse("motion", "position at " + std::to_string(sample.t) + " s",
-                         "a point within 9.99 m of the origin");
+                         "coordinates between -9.99 and 9.99 m");
     }
     if (samples_.empty() || sample.t > samples_.back().t) samples_.push_back(sample);
   }

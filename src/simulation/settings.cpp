@@ -292,11 +292,10 @@ dynamics::DynamicsSettings DynamicsChange::applied_to(dynamics::DynamicsSettings
 }
 
 bool ObjectEdit::operator==(const ObjectEdit& other) const {
-  const auto same_pose = [&] {
-    return X_WL.has_value() == other.X_WL.has_value() && (!X_WL || X_WL->matrix() == other.X_WL->matrix());
-  };
-  return action == other.action && name == other.name && urdf == other.urdf && mass == other.mass &&
-         friction == other.friction && same_pose();
+  math::StateArchive a, b;
+  ObjectEdit(*this).archive(a);
+  ObjectEdit(other).archive(b);
+  return std::move(a).words() == std::move(b).words();
 }
 
 void validate(const ObjectEdit& edit) {
@@ -304,7 +303,8 @@ void validate(const ObjectEdit& edit) {
     validation::refuse("", "action", std::to_string(static_cast<int>(edit.action)),
                        "one of " + validation::join(validation::names<ObjectEdit::Action>()));
   if (edit.X_WL && !edit.X_WL->matrix().allFinite()) validation::refuse("", "pose", "a finite pose");
-  if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse("", "pose", "a pose to move to");
+  if (edit.action == ObjectEdit::Action::move && !edit.X_WL)
+    validation::refuse("", "pose", "a pose to move to (quaternion not zero)");
   validation::check_number("", "mass", edit.mass, scene::mass_rule());
   validation::check_number("", "friction", edit.friction, scene::friction_rule());
 }

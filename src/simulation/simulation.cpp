@@ -43,6 +43,14 @@ void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bo
   scene.targets.erase(edit.name);
 }
 
+/// E.g. "added box", "mass of box: 2 kg".
+std::string in_words(const ObjectEdit& edit) {
+  const char* const done[] = {"added ", "moved ", "removed ", "mass of ", "friction of "};
+  const std::string text = done[static_cast<std::size_t>(edit.action)] + edit.name;
+  if (edit.action == Action::mass) return text + ": " + validation::number_text(edit.mass) + " kg";
+  return edit.action == Action::friction ? text + ": " + validation::number_text(edit.friction) : text;
+}
+
 /// Appends an edit and drops those that it supersedes.
 std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& edit) {
   bool was_added = edit.action == Action::move;  // which changes no scene
@@ -64,9 +72,8 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   scene.gravity = settings.gravity.value_or(scene.gravity);
   scene.force_scale = settings.force_scale.value_or(scene.force_scale);
   scene.contact = settings.contact.value_or(scene.contact);
-  for (scene::Body& body : scene.bodies) {
+  for (scene::Body& body : scene.bodies)
     if (settings.massless) body.mass_properties = scene::MassProperties();
-  }
   if (settings.tool) scene.tool = validation::name_of(*settings.tool);
   for (const ObjectEdit& edit : edits) make_edit(edit, roots, settings.massless, scene);
   const tools::GraspSettings& grasp = settings.grasp;
@@ -170,7 +177,7 @@ struct Simulation::Impl {
     return earliest([&](const motion::Stylus& stylus) { return stylus.next_event_time(now); });
   }
   void start(double t_end);
-  void advance(double t_end, double pause, AdvanceReport& report);
+  void advance(double t_end, double pause_at, AdvanceReport& report);
   void act(AdvanceReport& report);
   /// The held objects and spring forces before a change; used only by with_handover().
   std::vector<std::pair<std::optional<std::size_t>, Wrench>> held_before;
@@ -369,13 +376,13 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   for (const auto& [hand, pull] : slipping) hand->end_slip(pull, h);
 }
 
-void Simulation::Impl::advance(double t_end, double pause, AdvanceReport& report) {
+void Simulation::Impl::advance(double t_end, double pause_at, AdvanceReport& report) {
   start(t_end);
   const double begin = now;
   objects.contacts().begin_call();
   for (Hand& hand : hands) hand.begin_call();
   act(report);
-  while (now < std::min(t_end, pause) - same_time) {
+  while (now < std::min(t_end, pause_at) - same_time) {
     step(end_of_step(t_end), report);
     act(report);
   }
@@ -465,9 +472,8 @@ void Simulation::push_external_wrench(const motion::ExternalWrench& sample, std:
 
 double Simulation::newest_sample_time() const {
   double newest = -std::numeric_limits<double>::infinity();
-  for (const Hand& hand : impl_->hands) {
+  for (const Hand& hand : impl_->hands)
     if (!hand.stylus().track().empty()) newest = std::max(newest, hand.stylus().track().end());
-  }
   return std::isfinite(newest) ? impl_->of_hand(newest) : time();
 }
 
@@ -476,11 +482,11 @@ double Simulation::next_event_time() const {
   return impl_->of_hand(std::min(impl_->next_sample(impl_->now + same_time), impl_->next_event_time()));
 }
 
-AdvanceReport Simulation::advance_to(double t_end, double pause) {
+AdvanceReport Simulation::advance_to(double t_end, double pause_at) {
   validation::check_number("", "t_end", t_end, validation::any_number().in("s"));
   AdvanceReport report;
   impl_->requested_time = t_end;
-  impl_->advance(impl_->in_world(t_end), impl_->in_world(pause), report);
+  impl_->advance(impl_->in_world(t_end), impl_->in_world(pause_at), report);
   report.simulated_time /= impl_->settings.hand_time_scale;
   report.time_lost /= impl_->settings.hand_time_scale;
   return report;
@@ -535,7 +541,7 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
     validate(changed, "");
   }
   return with_energy_report(*this, [&] {
-    std::string message = fork.empty() && dynamics.empty() ? "nothing changed" : "set";
+    std::string message = !fork.empty() ? "set" : dynamics.empty() ? "nothing changed" : "integrator and steps set";
     for (Hand* of : impl_->chosen(hand)) {
       const rod::ForkSettings next = fork.applied_to(of->fork());
       const std::string words = fork.empty() ? "" : rod::in_words(next);
@@ -558,10 +564,9 @@ void Simulation::Impl::check_place(const std::string& name, const RigidTransform
 void Simulation::Impl::move(const ObjectEdit& edit) {
   const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.name, "", "name")];
   const std::size_t object = *objects.find(edit.name);
-  for (const Hand& hand : hands) {
+  for (const Hand& hand : hands)
     if (hand.carried() == object)
       validation::refuse_because("", "name", edit.name + " is held or pushed; release it first");
-  }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
   check_place(edit.name, X_WO);
   objects.place(object, X_WO, now);
@@ -586,9 +591,8 @@ void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   });
   if (edit.action == Action::remove) before.objects.wake_supported_by(edited, now);
   objects.continue_from(before.objects, now);
-  for (std::size_t i = 0; i < hands.size(); ++i) {
+  for (std::size_t i = 0; i < hands.size(); ++i)
     hands[i].continue_from(before.hands[i], edit.action == Action::mass ? edit.name : "", now);
-  }
 }
 
 std::optional<Simulation> Simulation::Impl::with_edits(const std::vector<ObjectEdit>& next,
@@ -613,7 +617,7 @@ ChangeReport Simulation::apply_edit(const ObjectEdit& edit, std::optional<Simula
     if (edit.action == Action::move) impl_->move(edit);
     if (next) next->impl_->continue_from(*impl_, edit);
     if (next) std::swap(*this, *next);
-    return validation::name_of(edit.action) + ": " + edit.name;
+    return in_words(edit);
   });
 }
 
@@ -652,11 +656,7 @@ std::optional<Simulation> Simulation::prepare_rewind(const SimulationState& stat
 void Simulation::rewind_to(const SimulationState& state, std::optional<Simulation>& next) {
   math::StateArchive input;
   impl_->archive_input(input);
-  if (next) {
-    std::swap(*this, *next);
-  } else {
-    restore_at_rest(state, *this);
-  }
+  next ? std::swap(*this, *next) : restore_at_rest(state, *this);
   math::StateArchive kept(input.words());
   impl_->archive_input(kept);
   impl_->objects.begin(impl_->now);

@@ -12,7 +12,7 @@ namespace spring_workbench::stepping {
 
 void fallback_step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                    dynamics::StrainState& state) {
-  const dynamics::HandleForcing end = body.forcing(handle, t + h);
+  const dynamics::HandleMotion end = body.motion_at(handle, t + h);
   const dynamics::StrainState begin = state;
   const dynamics::LinearisedMotion motion(body, end, begin.q);
   const math::ImplicitMatrix matrix = motion.implicit(h);

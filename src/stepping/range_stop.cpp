@@ -31,7 +31,7 @@ rod::StrainVector range_slope(const dynamics::HeldBody& body, double t, const ro
   return g;
 }
 
-void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, double h,
+void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end) {
   const double t = handle.t;
   const auto used = [&](const rod::StrainVector& q) { return range_used(body, t, q); };

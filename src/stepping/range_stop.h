@@ -11,7 +11,7 @@ namespace spring_workbench::stepping {
 /// stops. The state has no more energy than at the begin of the step, beyond the work of weight, handle and contact:
 /// the rates lose what the strain has gained and, if a strain has too much energy even at rest, it is as far on the
 /// straight way from `begin` to `end` as range and energy allow.
-void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, double h,
+void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end);
 
 /// Derivative of the used fraction of the rod's range by the strain, at the strain `q`.

@@ -8,8 +8,8 @@ namespace spring_workbench::tools {
 ForkCoupling::ForkCoupling(const dynamics::HeldBody& held, double since)
     : held_(held),
       since_(since),
-      R_OE_(math::three_by_three(held.body().X_OE.linear())),
-      p_OE_(math::three(held.body().X_OE.translation())) {
+      R_OE_(math::mat3x3(held.body().X_OE.linear())),
+      p_OE_(math::vec3(held.body().X_OE.translation())) {
   if (held.shape().size() == n) {
     shape_ = held.shared_shape();
     in_shape_ = {0, 1, 2, 3, 4, 5};
@@ -53,12 +53,12 @@ void ForkCoupling::begin_step() const {
 template <typename S>
 struct ForkCoupling::Tip {
   rod::TipFit<S> fit;
-  math::Three<S> r_OE;  ///< in handle axes
+  math::Vec3<S> r_OE;  ///< in handle axes
 };
 
 template <typename S>
 ForkCoupling::Tip<S> ForkCoupling::tip(const dynamics::RelativeMotion<S>& A_O, const Coordinates<S>& start) const {
-  const math::Three<S> r = A_O.R_AB * p_OE_;
+  const math::Vec3<S> r = A_O.R_AB * p_OE_;
   return {
       rod::TipFit<S>(*shape_, A_O.R_AB * R_OE_, A_O.p_AB + r, A_O.v_AB + cross(A_O.w_AB, r), A_O.w_AB, start.data()),
       r};
@@ -118,7 +118,7 @@ dynamics::Coupling::Springs ForkCoupling::springs(double t, const dynamics::Rela
   for (int i = 0; i < n; ++i) {
     double unit[n] = {};
     unit[i] = 1.0;
-    math::Three<double> force{}, moment{};
+    math::Vec3<double> force{}, moment{};
     at.fit.wrench(unit, force, moment);
     to_object.col(i) << math::vector(force), math::vector(moment + cross(at.r_OE, force));
   }

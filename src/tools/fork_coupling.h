@@ -51,8 +51,8 @@ class ForkCoupling final : public dynamics::Coupling {
   double since_;
   std::shared_ptr<const rod::ShapeModel> shape_;  ///< of six coordinates
   std::array<int, n> in_shape_{};                 ///< indices of the held body's coordinates among the six
-  math::ThreeByThree<double> R_OE_;
-  math::Three<double> p_OE_;
+  math::Mat3x3<double> R_OE_;
+  math::Vec3<double> p_OE_;
   long version_ = -1;  ///< version of the held body for which the next two are valid
   Coordinates<double> K_{};
   Eigen::Matrix<double, n, n> D_;

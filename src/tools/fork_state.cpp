@@ -28,7 +28,7 @@ void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionStat
     state_.proxy.place(by * state_.proxy.offset(), state_.proxy.rate());
     return;
   }
-  const motion::OwnAxesMotion A = state_.proxy.motion(hand_, t).in_own_axes(t);
+  const motion::BodyRateState A = state_.proxy.motion(hand_, t).body_rate_state(t);
   const dynamics::RelativeMotion<double> A_O = dynamics::relative_motion(A, object);
   dynamics::Pull<double> pull{};
   coupling_.pull(t, A_O, pull);

@@ -32,11 +32,11 @@ void Probe::set_springs(const rod::ForkSettings& fork) {
 template <typename S>
 Probe::Touch<S> Probe::touch_of(const dynamics::RelativeMotion<S>& A_O) const {
   // Along z of the hand to the plane through the point with the normal, both fixed to the object.
-  const math::Three<S> n = A_O.R_AB * math::three(normal_O_), p = A_O.p_AB + A_O.R_AB * math::three(point_O_);
+  const math::Vec3<S> n = A_O.R_AB * math::vec3(normal_O_), p = A_O.p_AB + A_O.R_AB * math::vec3(point_O_);
   const S per_slope = 1.0 / n.z, distance = dot(n, p) * per_slope;
   Touch<S> at{};
   at.depth = length_ - distance;
-  at.arm = math::Three<S>{S{}, S{}, distance} - A_O.p_AB;
+  at.arm = math::Vec3<S>{S{}, S{}, distance} - A_O.p_AB;
   at.speed = A_O.v_AB + cross(A_O.w_AB, at.arm);
   at.rate = -(dot(n, at.speed) * per_slope);
   at.force = series_ * at.depth + c_ * at.rate;
@@ -78,7 +78,7 @@ dynamics::Coupling::Springs Probe::springs(double, const dynamics::RelativeMotio
 }
 
 void Probe::follow(double t, const motion::MotionState& object) {
-  const Touch<double> at = touch_of(dynamics::relative_motion(hand_.in_own_axes(t), object));
+  const Touch<double> at = touch_of(dynamics::relative_motion(hand_.body_rate_state(t), object));
   depth_ = at.depth;
   force_ = at.force;
 }

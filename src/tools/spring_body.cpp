@@ -28,7 +28,7 @@ void SpringCoupling::set_rest_length(double length) {
 
 template <typename S>
 struct SpringCoupling::Span {
-  math::Three<S> n;
+  math::Vec3<S> n;
   S length, extension, rate;
 };
 
@@ -106,7 +106,7 @@ void SpringBody::lead(const std::vector<dynamics::Attached>& others) {
 void SpringBody::follow(double t, const ToolHold&, const motion::MotionState& object) {
   ForkBody::set_hand(rest_, t);
   const RigidTransform X_HO = rest_.at(t).X.inverse() * object.X;
-  const rod::TipFit<double> fit(held().shape(), math::three_by_three(X_HO.linear()), math::three(X_HO.translation()),
+  const rod::TipFit<double> fit(held().shape(), math::mat3x3(X_HO.linear()), math::vec3(X_HO.translation()),
                                 math::zero<double>(), math::zero<double>(), strain().q.data());
   set_strain({Eigen::Map<const Vector6d>(fit.q), strain().q_dot});
   take_twist(object.velocity);
@@ -128,7 +128,7 @@ rod::PerDof SpringBody::fitting_stiffness(const rod::ForkSettings& fork, double 
 }
 
 SpringBody::Reading SpringBody::reading() const {
-  const motion::OwnAxesMotion A = hand_.in_own_axes(time());
+  const motion::BodyRateState A = hand_.body_rate_state(time());
   const motion::MotionState o = object();
   const dynamics::RelativeMotion<double> A_O = dynamics::relative_motion(A, o);
   dynamics::Pull<double> pull{};

@@ -381,7 +381,7 @@ class Manipulation(unittest.TestCase):
             self.hand.run(0.2)
             self.assertEqual(self.fork.next().held_object, "")
             self.assertEqual(list(self.heights()), ["brick"])
-            self.assertIn("remove: box", self.call("undo").message)
+            self.assertIn("removed box", self.call("undo").message)
             self.hand.run(1.0)
             self.assertAlmostEqual(self.heights()["box"], 0.02, delta=1e-4)  # nothing holds it now
             self.call("load_scene", path)

@@ -112,7 +112,7 @@ class ManyObjects(unittest.TestCase):
         self.assertGreater(came["/tf"], 0.5 * len(sent))
         self.assertEqual(fork.last.held_object, "box0")
         self.assertEqual(set(lost.values()), {"0"})
-        for faults in (of_input["dropouts"], loop["cycles behind the hands"], loop["skipped without input [s]"]):
+        for faults in (of_input["dropouts"], loop["cycles behind the hands"], loop["simulated time skipped [s]"]):
             self.assertEqual(faults, "0")
         for subscriber in (*subscribers, fork.subscriber, diagnostics.subscriber):
             subscriber.unregister()

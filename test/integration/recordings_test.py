@@ -28,7 +28,7 @@ LEFT_OUT = {  # every other file: nothing
     "falcon5_unsorted_stamps.tum": {"stamp not later": 1300},
     "tango_hard_caligula_60s.tum": {"stamp not later": 277},
     "vicon_handheld_primesense1_60s.tum": {"stamp not later": 3},
-    "tumvi_room2_gaps_60s.tum": {"too close to the last": 5},  # stamps that crowd after a dropout
+    "tumvi_room2_gaps_60s.tum": {"stamp too close": 5},  # stamps that crowd after a dropout
 }
 DROPOUTS = {"tumvi_room2_gaps_60s.tum": 6}
 SETTINGS = ["contact=none", "grasp.object=box", "start.follow=true", "grasp.tip_in_object=0 0 0 1 0 0 0", "rate=200"]

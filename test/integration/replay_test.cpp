@@ -79,8 +79,8 @@ TEST_F(Replay, AHandWithSlowSamplesIsToldWhyItDoesNotMove) {
   const Outcome slow = run("--scene box.urdf --motion hand.tum --out run.csv");
   EXPECT_EQ(slow.status, 0);
   EXPECT_EQ(slow.err,
-            "warning: hand 1: samples come 0.6 s apart, more than dropout_after = 0.5 s: each counts as the return of "
-            "a lost hand, which does not move; increase dropout_after\n");
+            "warning: hand 1: samples come 0.6 s apart, more than dropout_after = 0.5 s: each gap counts as a "
+            "dropout, so the hand does not move; increase dropout_after\n");
   const Outcome moves = run("--scene box.urdf --motion hand.tum --set dropout_after=1 --out run.csv");
   EXPECT_EQ(moves.err, "");
   EXPECT_EQ(summary_of(moves)["dropouts"].as<int>(), 0);

@@ -12,20 +12,20 @@ namespace spring_workbench::dynamics {
 /// Pose and velocity of a frame B in a frame A, in the axes of A, at one moment (`S` double) or several (a math::Pack).
 template <typename S>
 struct RelativeMotion {
-  math::ThreeByThree<S> R_AB;  ///< rotation: columns are the axes of B in A
-  math::Three<S> p_AB;         ///< origin of B [m]
-  math::Three<S> v_AB;         ///< velocity of the origin of B [m/s]
-  math::Three<S> w_AB;         ///< angular velocity of B [rad/s]
+  math::Mat3x3<S> R_AB;  ///< rotation: columns are the axes of B in A
+  math::Vec3<S> p_AB;    ///< origin of B [m]
+  math::Vec3<S> v_AB;    ///< velocity of the origin of B [m/s]
+  math::Vec3<S> w_AB;    ///< angular velocity of B [rad/s]
 };
 
 /// Returns pose and velocity of the object O relative to a frame A.
-RelativeMotion<double> relative_motion(const motion::OwnAxesMotion& A, const motion::MotionState& O);
+RelativeMotion<double> relative_motion(const motion::BodyRateState& A, const motion::MotionState& O);
 
 /// Force and moment of a coupling on the object, in the axes of the frame that the function names.
 template <typename S>
 struct Pull {
-  math::Three<S> force;   ///< force [N]
-  math::Three<S> moment;  ///< moment about the origin of O [N·m]
+  math::Vec3<S> force;   ///< force [N]
+  math::Vec3<S> moment;  ///< moment about the origin of O [N·m]
 };
 
 /// The action of a further tool on the held body O: springs and dampers without mass between O and a frame A with

@@ -47,8 +47,8 @@ class Integrator {
   virtual ~Integrator() = default;
 
   virtual int order() const = 0;  ///< order of accuracy for smooth motions
-  /// Optional. Whether the method is stable at any stiffness. Default: false. If the method then fails to solve a step,
-  /// the step is retried with shorter steps if a tolerance is set, and otherwise done by an L-stable fallback.
+  /// Optional. Whether the method is stable at any stiffness. Default: false. If it is not and fails to solve a step,
+  /// shorter steps are tried if a tolerance is set; otherwise an L-stable fallback takes the step.
   virtual bool stiffly_stable() const { return false; }
   /// How the method changes the energy of a motion without damping; this decides which steps are accepted.
   enum class Energy {
@@ -89,7 +89,7 @@ class Integrator {
   };
   /// Optional. Returns the response of a step of `h` [s] from `state`, for contact. Default: the response of
   /// the implicit Euler rule.
-  virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
+  virtual Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state);
 
   /// Optional. Saves or restores the history. Override it to call `state(a_, b_)` with all members that a later step()
   /// uses; if one is forgotten, replay and restored runs differ silently. Default: there is no history.

@@ -52,14 +52,14 @@ struct AcceptedInput {
 ///     while (running()) {
 ///       const hand_input::LocalTime now{seconds(), attended_seconds()};  // by two clocks: see LocalTime
 ///       while (const std::optional<hand_input::RawSample> raw = receive()) filter.push_stylus(*raw, X_WP, now);
-///       while (const std::optional<double> t = filter.next_stop(now)) filter.advance_to(*t);
+///       while (const std::optional<double> t = filter.next_target(now)) filter.advance_to(*t);
 ///     }
 ///
 /// The samples of each hand pass an outlier gate (SampleGate), smoothing, and re-acquisition (Reacquisition). In a live
-/// loop next_stop() decides up to which time the input is complete, so that the result does not depend on when messages
-/// arrive. Offline, push all samples and then call advance_to() for any time. Hands are numbered as in Simulation;
-/// another number throws InputError. Times are those of the hand's clock [s]. A filter has no thread; the same
-/// calls give bit-identical results on processors of the same kind.
+/// loop next_target() decides up to which time the input is complete, so that the result does not depend on when
+/// messages arrive. Offline, push all samples and then call advance_to() for any time. Hands are numbered as in
+/// Simulation; another number throws InputError. Times are those of the hand's clock [s]. A filter has no thread; the
+/// same calls give bit-identical results on processors of the same kind.
 class InputFilter {
  public:
   /// Whether the motion of the hands is predicted.
@@ -92,23 +92,23 @@ class InputFilter {
   /// not waited for: the simulation may pass their time before they arrive.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Reports that the buttons of a hand are known up to time `t` [s], whether or not one of them changed.
-  void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
+  void confirm_buttons(double t, const LocalTime& arrival, std::size_t hand = 0);
 
   /// Returns whether a sample of any hand was accepted since the start.
   bool has_sample() const { return has_sample_; }
   /// Returns the time [s] to which to call advance_to() next, or nothing if more input has to arrive first. This is the
   /// time of the next sample or button edge, if the input of every hand that is not silent is complete up to it. If all
   /// hands are silent, it is a whole step ahead. While an advance is interrupted, it is its target().
-  std::optional<double> next_stop(const LocalTime& now) const;
+  std::optional<double> next_target(const LocalTime& now) const;
   /// Returns the simulated time that was reached [s]; −infinity before the first advance.
   double committed() const;
   bool is_interrupted() const { return target_.has_value(); }  ///< whether advance_to() paused on its way
   /// Returns the time that an interrupted advance is heading for [s]; committed() if none is.
   double target() const { return target_.value_or(committed()); }
   /// Advances the simulation to time `t` [s]. With `on_loss: release`, a hand that is lost before `t` releases its
-  /// object at the time of the loss. The advance is interrupted after the step that reaches `pause` [s]; going on with
-  /// next_stop() then takes the same steps as without a pause.
-  simulation::AdvanceReport advance_to(double t, double pause = std::numeric_limits<double>::infinity());
+  /// object at the time of the loss. The advance is interrupted after the step that reaches `pause_at` [s]; going on
+  /// with next_target() then takes the same steps as without a pause.
+  simulation::AdvanceReport advance_to(double t, double pause_at = std::numeric_limits<double>::infinity());
   /// Extends the motion of each hand of `copy`, a copy of the simulation, to time `t` [s] by predicted samples, for
   /// display. Does nothing unless prediction is on. Note that this also changes the velocity at the newest real sample
   /// of `copy`.

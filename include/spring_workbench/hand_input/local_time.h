@@ -5,8 +5,8 @@ namespace spring_workbench::hand_input {
 /// The current moment on two clocks of the caller [s]. InputFilter uses them to tell a silent hand from a late message.
 struct LocalTime {
   double loop = 0.0;  ///< clock of the caller's loop: a steady clock or, under use_sim_time, simulated time
-  /// Time on a steady clock during which the process ran. Each reading of the clock advances it by at most 10 ms. A
-  /// process that was stopped therefore does not count a hand as silent whose messages were queued meanwhile.
+  /// Time on a steady clock during which the process ran. Each reading of the clock advances it by at most 10 ms. So
+  /// a process that was stopped does not take a hand for silent while its messages are queued.
   double attended = 0.0;
 };
 

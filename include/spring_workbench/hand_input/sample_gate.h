@@ -18,16 +18,16 @@ struct RawSample {
 
 /// Result of the gate for a sample.
 enum class GateResult {
-  accepted,        ///< accepted: it continues the motion of the sample before
-  relocation,      ///< accepted after a jump or a dropout, or as the first sample
-  not_finite,      ///< rejected: a number is NaN or infinite
-  bad_quaternion,  ///< rejected: the quaternion is far from unit length
-  too_far,         ///< rejected: farther than `max_distance` from the origin of the tracker's frame
-  not_later,       ///< rejected: the stamp is not later than the last one
-  too_close,       ///< rejected: the stamp is too close to the last one for a meaningful velocity, as in a burst
-  too_fast,        ///< rejected: faster than `max_speed` since the last accepted sample
-  turns_too_fast,  ///< rejected: turned faster than `max_turn_rate` since the last accepted sample
-  out_of_view,     ///< rejected: a jump to the identity, which a tracker sends for a sensor that it does not see
+  accepted,         ///< accepted: it continues the motion of the sample before
+  relocation,       ///< accepted after a jump or a dropout, or as the first sample
+  not_finite,       ///< rejected: a number is NaN or infinite
+  bad_quaternion,   ///< rejected: the quaternion is far from unit length
+  too_far,          ///< rejected: farther than `max_distance` from the origin of the tracker's frame
+  not_later,        ///< rejected: the stamp is not later than the last one
+  stamp_too_close,  ///< rejected: the stamp is too close to the last one for a meaningful velocity, as in a burst
+  too_fast,         ///< rejected: faster than `max_speed` since the last accepted sample
+  turns_too_fast,   ///< rejected: turned faster than `max_turn_rate` since the last accepted sample
+  out_of_view,      ///< rejected: a jump to the identity, which a tracker sends for a sensor that it does not see
 };
 /// Returns whether a sample with this result may be used: accepted or relocation.
 inline bool usable(GateResult result) { return result == GateResult::accepted || result == GateResult::relocation; }

@@ -55,29 +55,29 @@ SPRING_WORKBENCH_INLINE double sum(const Pack& p) { return (p[0] + p[1]) + (p[2]
 
 /// A vector of three coordinates.
 template <typename S>
-struct Three {
+struct Vec3 {
   S x;  ///< coordinate along x
   S y;  ///< coordinate along y
   S z;  ///< coordinate along z
 };
 /// The zero vector.
 template <typename S>
-SPRING_WORKBENCH_INLINE Three<S> zero() {
+SPRING_WORKBENCH_INLINE Vec3<S> zero() {
   return {S{}, S{}, S{}};
 }
 /// Converts a vector from Eigen.
-SPRING_WORKBENCH_INLINE Three<double> three(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+SPRING_WORKBENCH_INLINE Vec3<double> vec3(const Vector3d& v) { return {v[0], v[1], v[2]}; }
 /// Converts a vector to Eigen.
-SPRING_WORKBENCH_INLINE Vector3d vector(const Three<double>& v) { return {v.x, v.y, v.z}; }
+SPRING_WORKBENCH_INLINE Vector3d vector(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
 /// Converts lane `i` of a vector to Eigen.
 template <typename S>
-SPRING_WORKBENCH_INLINE Vector3d vector(const Three<S>& v, int i) {
+SPRING_WORKBENCH_INLINE Vector3d vector(const Vec3<S>& v, int i) {
   return {lane(v.x, i), lane(v.y, i), lane(v.z, i)};
 }
 
 /// Sets lane `i` of a vector.
 template <typename S>
-SPRING_WORKBENCH_INLINE void set_lane(Three<S>& p, int i, const Three<double>& v) {
+SPRING_WORKBENCH_INLINE void set_lane(Vec3<S>& p, int i, const Vec3<double>& v) {
   set_lane(p.x, i, v.x);
   set_lane(p.y, i, v.y);
   set_lane(p.z, i, v.z);
@@ -85,17 +85,17 @@ SPRING_WORKBENCH_INLINE void set_lane(Three<S>& p, int i, const Three<double>& v
 
 /// Sum, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE auto operator+(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x + b.x)> {
+SPRING_WORKBENCH_INLINE auto operator+(const Vec3<S>& a, const Vec3<T>& b) -> Vec3<decltype(a.x + b.x)> {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 /// Difference, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE auto operator-(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x - b.x)> {
+SPRING_WORKBENCH_INLINE auto operator-(const Vec3<S>& a, const Vec3<T>& b) -> Vec3<decltype(a.x - b.x)> {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 /// Adds `b` to `a`, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE Three<S>& operator+=(Three<S>& a, const Three<T>& b) {
+SPRING_WORKBENCH_INLINE Vec3<S>& operator+=(Vec3<S>& a, const Vec3<T>& b) {
   a.x += b.x;
   a.y += b.y;
   a.z += b.z;
@@ -103,41 +103,41 @@ SPRING_WORKBENCH_INLINE Three<S>& operator+=(Three<S>& a, const Three<T>& b) {
 }
 /// Product with a number, lane by lane.
 template <typename T, typename S>
-SPRING_WORKBENCH_INLINE auto operator*(const T& f, const Three<S>& a) -> Three<decltype(f * a.x)> {
+SPRING_WORKBENCH_INLINE auto operator*(const T& f, const Vec3<S>& a) -> Vec3<decltype(f * a.x)> {
   return {f * a.x, f * a.y, f * a.z};
 }
 /// Scalar product, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE auto dot(const Three<S>& a, const Three<T>& b) -> decltype(a.x * b.x) {
+SPRING_WORKBENCH_INLINE auto dot(const Vec3<S>& a, const Vec3<T>& b) -> decltype(a.x * b.x) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 /// Cross product, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE auto cross(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x * b.x)> {
+SPRING_WORKBENCH_INLINE auto cross(const Vec3<S>& a, const Vec3<T>& b) -> Vec3<decltype(a.x * b.x)> {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// A 3 × 3 matrix by its columns.
 template <typename S>
-struct ThreeByThree {
-  Three<S> x;  ///< first column
-  Three<S> y;  ///< second column
-  Three<S> z;  ///< third column
+struct Mat3x3 {
+  Vec3<S> x;  ///< first column
+  Vec3<S> y;  ///< second column
+  Vec3<S> z;  ///< third column
 };
 /// Converts a matrix from Eigen.
-SPRING_WORKBENCH_INLINE ThreeByThree<double> three_by_three(const Matrix3d& m) {
-  return {three(m.col(0)), three(m.col(1)), three(m.col(2))};
+SPRING_WORKBENCH_INLINE Mat3x3<double> mat3x3(const Matrix3d& m) {
+  return {vec3(m.col(0)), vec3(m.col(1)), vec3(m.col(2))};
 }
 /// Converts lane `i` of a matrix to Eigen.
 template <typename S>
-SPRING_WORKBENCH_INLINE Matrix3d matrix(const ThreeByThree<S>& m, int i) {
+SPRING_WORKBENCH_INLINE Matrix3d matrix(const Mat3x3<S>& m, int i) {
   Matrix3d r;
   r << vector(m.x, i), vector(m.y, i), vector(m.z, i);
   return r;
 }
 /// Sets lane `i` of a matrix.
 template <typename S>
-SPRING_WORKBENCH_INLINE void set_lane(ThreeByThree<S>& p, int i, const ThreeByThree<double>& m) {
+SPRING_WORKBENCH_INLINE void set_lane(Mat3x3<S>& p, int i, const Mat3x3<double>& m) {
   set_lane(p.x, i, m.x);
   set_lane(p.y, i, m.y);
   set_lane(p.z, i, m.z);
@@ -145,24 +145,23 @@ SPRING_WORKBENCH_INLINE void set_lane(ThreeByThree<S>& p, int i, const ThreeByTh
 
 /// Product of matrix and vector, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
+SPRING_WORKBENCH_INLINE auto operator*(const Mat3x3<S>& m, const Vec3<T>& v) -> Vec3<decltype(m.x.x * v.x)> {
   return v.x * m.x + v.y * m.y + v.z * m.z;
 }
 /// Product `mᵀ v` of the transposed matrix and a vector, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE auto transposed(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
+SPRING_WORKBENCH_INLINE auto transposed(const Mat3x3<S>& m, const Vec3<T>& v) -> Vec3<decltype(m.x.x * v.x)> {
   return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
 }
 /// Product of matrices, lane by lane.
 template <typename S, typename T>
-SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& a, const ThreeByThree<T>& b)
-    -> ThreeByThree<decltype(a.x.x * b.x.x)> {
+SPRING_WORKBENCH_INLINE auto operator*(const Mat3x3<S>& a, const Mat3x3<T>& b) -> Mat3x3<decltype(a.x.x * b.x.x)> {
   return {a * b.x, a * b.y, a * b.z};
 }
 /// Returns the matrix `p v vᵀ + q I + r [v]×`, lane by lane.
 template <typename S>
-SPRING_WORKBENCH_INLINE ThreeByThree<S> symmetric_and_skew(const S& p, const S& q, const S& r, const Three<S>& v) {
-  const Three<S> pv = p * v, rv = r * v;
+SPRING_WORKBENCH_INLINE Mat3x3<S> symmetric_and_skew(const S& p, const S& q, const S& r, const Vec3<S>& v) {
+  const Vec3<S> pv = p * v, rv = r * v;
   const S xy = pv.x * v.y, xz = pv.x * v.z, yz = pv.y * v.z;
   return {{pv.x * v.x + q, xy + rv.z, xz - rv.y},
           {xy - rv.z, pv.y * v.y + q, yz + rv.x},

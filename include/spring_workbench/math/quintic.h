@@ -2,7 +2,7 @@
 
 namespace spring_workbench::math {
 
-/// A point of a curve: position and its derivatives by time.
+/// A point of a curve: position and its time derivatives.
 template <typename Vector>
 struct CurvePoint {
   Vector x, x_dot, x_ddot;

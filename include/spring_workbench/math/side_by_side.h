@@ -4,7 +4,7 @@
 
 namespace spring_workbench::math {
 
-/// `columns` times the first column of `x`.
+/// The first column of `x`, repeated `columns` times.
 template <int n, int columns, typename Matrix>
 Eigen::Matrix<double, n, columns> side_by_side(const Matrix& x) {
   Eigen::Matrix<double, n, columns> all;

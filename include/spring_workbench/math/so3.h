@@ -70,7 +70,7 @@ SPRING_WORKBENCH_INLINE So3CoefficientsOf<S> so3_coefficients(const S& t) {
 
 /// `exp([theta]×)` where `k = so3_coefficients(|theta|²)` is known.
 template <typename S>
-SPRING_WORKBENCH_INLINE ThreeByThree<S> exp_so3(const Three<S>& theta, const So3CoefficientsOf<S>& k) {
+SPRING_WORKBENCH_INLINE Mat3x3<S> exp_so3(const Vec3<S>& theta, const So3CoefficientsOf<S>& k) {
   return symmetric_and_skew(k.b, S(1.0 - k.b * dot(theta, theta)), k.a, theta);
 }
 

@@ -16,7 +16,7 @@ struct MotionState {
 };
 
 /// Motion of a frame B at one moment, with angular velocity and acceleration in its own axes.
-struct OwnAxesMotion {
+struct BodyRateState {
   RigidTransform X = RigidTransform::Identity();  ///< X_WB
   Vector3d v_W = Vector3d::Zero();                ///< velocity of the origin, world axes [m/s]
   Vector3d a_W = Vector3d::Zero();                ///< acceleration of the origin, world axes [m/s²]
@@ -26,20 +26,20 @@ struct OwnAxesMotion {
 
 /// Velocity and acceleration of a frame B in its own axes, at one time (`S` double) or at several (`S` a math::Pack).
 template <typename S>
-struct FrameForcing {
-  math::ThreeByThree<S> R_WB;  ///< rotation: columns are the axes of B in W
-  math::Three<S> v_B;          ///< velocity of the origin [m/s]
-  math::Three<S> w_B;          ///< angular velocity [rad/s]
-  math::Three<S> alpha_B;      ///< angular acceleration [rad/s²]
-  math::Three<S> a_B;          ///< proper acceleration: the acceleration of the origin less gravity [m/s²]
+struct BodyFrameMotion {
+  math::Mat3x3<S> R_WB;   ///< rotation: columns are the axes of B in W
+  math::Vec3<S> v_B;      ///< velocity of the origin [m/s]
+  math::Vec3<S> w_B;      ///< angular velocity [rad/s]
+  math::Vec3<S> alpha_B;  ///< angular acceleration [rad/s²]
+  math::Vec3<S> a_B;      ///< proper acceleration: the acceleration of the origin less gravity [m/s²]
 };
 
 /// Motion of a frame as a function of time, such as the handle's. It is twice differentiable over the requested times.
 class FrameMotion {
  public:
-  virtual OwnAxesMotion in_own_axes(double t) const = 0;  ///< returns the motion at time `t` [s]
+  virtual BodyRateState body_rate_state(double t) const = 0;  ///< returns the motion at time `t` [s]
   /// Returns the motion at several times `t` [s], with `gravity` [m/s²] along −z of world.
-  virtual FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const = 0;
+  virtual BodyFrameMotion<math::Pack> body_frame_motion(const math::Pack& t, double gravity) const = 0;
 
  protected:
   ~FrameMotion() = default;
@@ -73,8 +73,8 @@ class MotionSegment final : public FrameMotion {
   double end() const { return end_; }      ///< time of the end [s]; infinity for one that rests for good
   /// Returns the motion at time `t` [s], begin() ≤ t ≤ end(), in world axes.
   MotionState at(double t) const;
-  OwnAxesMotion in_own_axes(double t) const override;
-  FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override;
+  BodyRateState body_rate_state(double t) const override;
+  BodyFrameMotion<math::Pack> body_frame_motion(const math::Pack& t, double gravity) const override;
   /// Returns whether this frame rests, and `next` is at a different pose at time `t` [s].
   bool rests_apart_from(const MotionSegment& next, double t) const {
     return !moving_ && at(t).X.matrix() != next.at(t).X.matrix();
@@ -92,31 +92,31 @@ class MotionSegment final : public FrameMotion {
     void archive(math::StateArchive& state) { state(c); }
     static Polynomial cubic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
     template <typename S>
-    SPRING_WORKBENCH_INLINE math::Three<S> value(const S& u) const {
-      return u * (math::three(c[0]) + u * (math::three(c[1]) + u * math::three(c[2])));
+    SPRING_WORKBENCH_INLINE math::Vec3<S> value(const S& u) const {
+      return u * (math::vec3(c[0]) + u * (math::vec3(c[1]) + u * math::vec3(c[2])));
     }
     template <typename S>
-    SPRING_WORKBENCH_INLINE math::Three<S> first(const S& u) const {
-      return math::three(c[0]) + u * (2.0 * math::three(c[1]) + u * (3.0 * math::three(c[2])));
+    SPRING_WORKBENCH_INLINE math::Vec3<S> first(const S& u) const {
+      return math::vec3(c[0]) + u * (2.0 * math::vec3(c[1]) + u * (3.0 * math::vec3(c[2])));
     }
     template <typename S>
-    SPRING_WORKBENCH_INLINE math::Three<S> second(const S& u) const {
-      return 2.0 * math::three(c[1]) + u * (6.0 * math::three(c[2]));
+    SPRING_WORKBENCH_INLINE math::Vec3<S> second(const S& u) const {
+      return 2.0 * math::vec3(c[1]) + u * (6.0 * math::vec3(c[2]));
     }
   };
 
   /// Rotation from the start, body rates and angular acceleration.
   template <typename S>
   struct Turn {
-    math::ThreeByThree<S> R;
-    math::Three<S> w_B, alpha_B;
+    math::Mat3x3<S> R;
+    math::Vec3<S> w_B, alpha_B;
   };
   template <typename S>
   Turn<S> turn(const S& u, double per_second) const;
-  /// The forcing of C, given that of B.
-  FrameForcing<math::Pack> at_frame(const FrameForcing<math::Pack>& f) const;
-  OwnAxesMotion of_samples(double t) const;
-  FrameForcing<math::Pack> of_samples(const math::Pack& t, double gravity) const;
+  /// The motion of C, given that of B.
+  BodyFrameMotion<math::Pack> at_frame(const BodyFrameMotion<math::Pack>& f) const;
+  BodyRateState of_samples(double t) const;
+  BodyFrameMotion<math::Pack> of_samples(const math::Pack& t, double gravity) const;
 
   RigidTransform X_a_;
   double begin_;

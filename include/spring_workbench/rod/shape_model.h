@@ -35,12 +35,12 @@ struct TipKinematics {
 /// TipKinematics for one strain (`S` double) or for several at once (`S` a math::Pack).
 template <typename S>
 struct TipOf {
-  math::ThreeByThree<S> R_HE;                      ///< rotation of the tip
-  math::Three<S> p_HE;                             ///< position of the tip [m]
-  math::Three<S> angular[max_strain_coordinates];  ///< columns of TipKinematics::angular
-  math::Three<S> linear[max_strain_coordinates];   ///< columns of TipKinematics::linear
-  math::Three<S> angular_bias;                     ///< TipKinematics::angular_bias [rad/s²]
-  math::Three<S> linear_bias;                      ///< TipKinematics::linear_bias [m/s²]
+  math::Mat3x3<S> R_HE;                           ///< rotation of the tip
+  math::Vec3<S> p_HE;                             ///< position of the tip [m]
+  math::Vec3<S> angular[max_strain_coordinates];  ///< columns of TipKinematics::angular
+  math::Vec3<S> linear[max_strain_coordinates];   ///< columns of TipKinematics::linear
+  math::Vec3<S> angular_bias;                     ///< TipKinematics::angular_bias [rad/s²]
+  math::Vec3<S> linear_bias;                      ///< TipKinematics::linear_bias [m/s²]
 };
 
 /// The strain coordinates of a DOF: from `begin` to `begin + count - 1`.

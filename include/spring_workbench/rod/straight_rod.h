@@ -14,7 +14,7 @@ inline StraightRod::StraightRod(const ShapeModel& shape)
 
 template <typename S>
 SPRING_WORKBENCH_INLINE void StraightRod::tip(const S* q, TipOf<S>& out) const {
-  const math::Three<S> zero = math::zero<S>();
+  const math::Vec3<S> zero = math::zero<S>();
   const S angle = twist_ * q[torsion_];
   out.R_HE = math::exp_so3<S>({S{}, S{}, angle}, math::so3_coefficients<S>(angle * angle));
   out.p_HE = {S{}, S{}, length_ + extension_ * q[stretch_]};

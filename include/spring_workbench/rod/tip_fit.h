@@ -17,18 +17,18 @@ struct TipFit {
   /// `R_HE`, `p_HE`: the prescribed pose; velocities in H axes. Newton's method, starting at the strain `start` or, if
   /// the branch of solutions from there ends, at the straight rod; a closed form for `bushing`. Keeps a reference to
   /// `shape`.
-  TipFit(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE,
-         const math::Three<S>& v_HE, const math::Three<S>& w_HE, const S* start);
+  TipFit(const ShapeModel& shape, const math::Mat3x3<S>& R_HE, const math::Vec3<S>& p_HE, const math::Vec3<S>& v_HE,
+         const math::Vec3<S>& w_HE, const S* start);
 
   /// Computes force and moment at the tip, in H axes, such that `Jᵀ (force, moment) = generalised`, the generalised
   /// forces.
-  void wrench(const S (&generalised)[max_strain_coordinates], math::Three<S>& force, math::Three<S>& moment) const;
+  void wrench(const S (&generalised)[max_strain_coordinates], math::Vec3<S>& force, math::Vec3<S>& moment) const;
 
  private:
-  void find_strain(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, const S* start);
+  void find_strain(const math::Mat3x3<S>& R_HE, const math::Vec3<S>& p_HE, const S* start);
   /// Newton's method from the current `q`. Returns whether it converged as predicted by the derivative, inside the
   /// rod's range.
-  bool follow_slope(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE);
+  bool follow_slope(const math::Mat3x3<S>& R_HE, const math::Vec3<S>& p_HE);
 
   const ShapeModel& shape_;
   math::SquareSystem<max_strain_coordinates, S>

@@ -53,7 +53,7 @@ SimulationState parse_state(const std::string& text);
 /// Report on one call of Simulation::advance_to(), or on several calls whose reports were added by add().
 ///
 /// A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
-/// repeated as shorter ones (`substeps`). If that does not help, or the integrator is not stable at any stiffness, an
+/// repeated as shorter ones (`substeps`). If that does not help, or the integrator is unstable at high stiffness, an
 /// L-stable rule takes it (`steps_fallback`). If that fails, too, the fork is rigid for the step or, in contact, the
 /// object stays (`steps_rejected`; doc/model.md, "Steps that are not solved"). If these three counters, `stops`,
 /// `steps_blocked`, `steps_unsolved` and `time_lost` are all 0, nothing unusual happened.
@@ -182,10 +182,10 @@ class Simulation {
   double next_event_time() const;
 
   /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step`; a step also ends at each
-  /// sample, button edge and change of a wrench. Returns early after the step that reaches the simulated time `pause`
-  /// [s]; call again with the same `t_end` to continue: the steps are the same as without a pause. If `t_end` is not
-  /// later than time(), only pending buttons act. Throws InputError if `t_end` is not finite.
-  AdvanceReport advance_to(double t_end, double pause = std::numeric_limits<double>::infinity());
+  /// sample, button edge and change of a wrench. Returns early after the step that reaches the simulated time
+  /// `pause_at` [s]; call again with the same `t_end` to continue: the steps are the same as without a pause. If
+  /// `t_end` is not later than time(), only pending buttons act. Throws InputError if `t_end` is not finite.
+  AdvanceReport advance_to(double t_end, double pause_at = std::numeric_limits<double>::infinity());
 
   void reset();  ///< releases all objects, returns them to their start poses, forgets all samples; time starts again
   /// Releases all objects and places the named ones at rest at these poses; unsupported ones then fall. Throws

@@ -61,9 +61,9 @@ class Probe final : public dynamics::Coupling {
   /// State of the contact between tip and surface.
   template <typename S>
   struct Touch {
-    S depth, rate;         ///< depth that the tip would have if both springs were rigid [m], and its rate [m/s]
-    math::Three<S> arm;    ///< contact point relative to the object's centre
-    math::Three<S> speed;  ///< velocity of the object there
+    S depth, rate;        ///< depth that the tip would have if both springs were rigid [m], and its rate [m/s]
+    math::Vec3<S> arm;    ///< contact point relative to the object's centre
+    math::Vec3<S> speed;  ///< velocity of the object there
     S force;
   };
   template <typename S>

@@ -9,7 +9,7 @@
 
 namespace spring_workbench::tools {
 
-/// Behaviour of a tool at its limit: it lets the object go, or it slips in the hand and pulls on with the limit force.
+/// Behaviour of a tool at its limit: it lets the object go, or it slips in the hand and keeps pulling with the limit.
 enum class LimitAction { let_go, slip };
 inline std::vector<std::string> names_of(LimitAction) { return {"let_go", "slip"}; }  ///< words in settings
 

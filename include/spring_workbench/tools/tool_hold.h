@@ -39,7 +39,7 @@ class ToolHold : public bodies::SteppedBody {
   /// Sets the current time [s] and the motion of the hand, which must cover the following steps.
   virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
   /// Whether nothing moves for the next `h` [s], so that advance_at_rest() is enough: the hand is at rest, and the
-  /// object has come to rest on the tool. `may_fall_asleep`: false, which wakes it, if something else may move it.
+  /// object has come to rest on the tool. `may_fall_asleep`: whether nothing else may move it; false wakes it.
   virtual bool sleeps(double h, bool may_fall_asleep) = 0;
   /// Lets `h` [s] pass at rest.
   virtual void advance_at_rest(double h) = 0;

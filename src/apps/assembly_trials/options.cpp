@@ -91,7 +91,7 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
   --out       a line of CSV per trial:
               )" +
          columns + R"(
-              participant is the seed, condition the tool, order its place in the list above; columns as of a study
+              participant is the seed, condition the tool, order its place in the list above; columns of a study
               with people
   --table     a table of the means of each tool with 95 % confidence intervals, in CSV
   --record    the hand of the first trial as a motion file for replay and tracker_driver; the second hand of an

@@ -89,7 +89,7 @@ void check_not_read(const Options& options, const std::string& settings) {
 }
 
 const char* const usage_text =
-    R"(Runs the simulation on a recorded hand, without ROS master or clock; equal input gives bit-identical CSV.
+    R"(Runs the simulation on a recorded hand, without a ROS master or clock; equal input gives bit-identical CSV.
 
 replay --scene SCENE.urdf (--motion FILE [--motion FILE ...] | --bag FILE.bag [--parent FRAME] [--child FRAME]
        [--hand-only]) [--settings FILE.yaml] [--set key=value ...] --out RUN.csv

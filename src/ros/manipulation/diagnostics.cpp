@@ -125,7 +125,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("collision_queries", total.collision_queries)
       .add("time_lost [s]", total.time_lost)
       .add("error_bound [m]", total.error_bound.value_or(std::numeric_limits<double>::infinity()))
-      .add("skipped without input [s]", loop.time_skipped)
+      .add("simulated time skipped [s]", loop.time_skipped)
       .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
       .add("waits for unsent messages", loop.waits)
@@ -146,7 +146,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   if (loop.waits > last_loop_.waits)
     status.warn("the loop waits for publishing: lower the rate or the number of subscribers");
   if (loop.time_skipped > last_loop_.time_skipped)
-    status.warn(increase("skipped without input [s]", last_loop_.time_skipped, loop.time_skipped));
+    status.warn(increase("simulated time skipped [s]", last_loop_.time_skipped, loop.time_skipped));
   if (loop.cycles_behind > last_loop_.cycles_behind)
     status.warn("behind the hands: samples are dropped; use larger steps, a softer fork or fewer contacts");
   return status.status();

@@ -44,7 +44,7 @@ std::string resolve(const std::string& path_or_uri) {
   const std::string rest = path_or_uri.substr(scheme.size());
   const std::string package = rest.substr(0, rest.find('/'));
   const std::string folder = scene::find_package_in_ros_package_path(package);
-  if (folder.empty()) validation::refuse("file", "package", package, "a package on ROS_PACKAGE_PATH");
+  if (folder.empty()) validation::refuse("", "file", path_or_uri, "a package on ROS_PACKAGE_PATH");
   return folder + rest.substr(package.size());
 }
 

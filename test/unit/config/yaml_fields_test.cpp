@@ -205,10 +205,10 @@ TEST(LoadYamlFile, ReportsFileAndLineOfInvalidYaml) {
   EXPECT_TRUE(load_yaml_file(folder.path("empty.yaml")).IsMap());
   folder.write("two.yaml", "a: 1\n---\nb: 2\n");
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("two.yaml")); }),
-                    {"two.yaml: documents: expected one in a file, got more"}));
+                    {"two.yaml: contains several YAML documents: expected one"}));
   folder.write("endless.yaml", ", a: 1\n");  // without end for yaml-cpp's LoadAll()
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("endless.yaml")); }),
-                    {"endless.yaml: documents: expected one in a file, got more"}));
+                    {"endless.yaml: contains several YAML documents: expected one"}));
   folder.write("begun.yaml", "---\na: 1\n");
   EXPECT_EQ(load_yaml_file(folder.path("begun.yaml"))["a"].as<int>(), 1);
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("bad.yaml")); }), {"bad.yaml:", "not YAML"}));

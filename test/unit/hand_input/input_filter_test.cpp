@@ -177,7 +177,7 @@ TEST(InputFilter, LostHandsReleaseEachAtItsTime) {
 
 /// Commits up to all stops until `now`.
 void commit(InputFilter& filter, const LocalTime& now) {
-  while (const auto stop = filter.next_stop(now)) filter.advance_to(*stop);
+  while (const auto stop = filter.next_target(now)) filter.advance_to(*stop);
 }
 
 TEST(InputFilter, TheSlowestHandLimitsTimeUntilItIsSilent) {
@@ -186,7 +186,7 @@ TEST(InputFilter, TheSlowestHandLimitsTimeUntilItIsSilent) {
   const RigidTransform X_WP = RigidTransform::Identity();
   const RawSample at_left{0.0, left, Quaterniond(pointing_down(left).linear())};
   EXPECT_FALSE(filter.has_sample());
-  EXPECT_FALSE(filter.next_stop({1.0, 1.0}));
+  EXPECT_FALSE(filter.next_target({1.0, 1.0}));
   for (int k = 0; k < 100; ++k) {
     RawSample sample = at_left;
     sample.t = kInterval * k;
@@ -203,7 +203,7 @@ TEST(InputFilter, TheSlowestHandLimitsTimeUntilItIsSilent) {
   EXPECT_NEAR(simulation.time(), 1.98, simulation.settings().dynamics.step);
   filter.restart();
   EXPECT_FALSE(filter.has_sample());
-  EXPECT_FALSE(filter.next_stop({3.0, 3.0}));
+  EXPECT_FALSE(filter.next_target({3.0, 3.0}));
   EXPECT_EQ(filter.gate_counts(0).accepted, 100u);
   EXPECT_FALSE(usable(filter.push_stylus(at_left, X_WP, {}, 0)));  // the gate goes on
   filter.restart_gate(0);
@@ -224,7 +224,7 @@ TEST(InputFilter, WhatIsCommittedDependsOnTheMessagesAlone) {
     settings.loss_timeout = 0.52;
     InputFilter filter(simulation, settings);
     const auto commit = [&, pauses = pauses](double t) {
-      while (const auto stop = filter.next_stop({10.0 + t, 10.0 + t})) {
+      while (const auto stop = filter.next_target({10.0 + t, 10.0 + t})) {
         const double begin = simulation.time();
         filter.advance_to(*stop, pauses ? begin + share(random) * (*stop - begin) : kInf);
         interrupted += filter.is_interrupted() ? 1 : 0;
@@ -237,7 +237,7 @@ TEST(InputFilter, WhatIsCommittedDependsOnTheMessagesAlone) {
       const LocalTime now{10.0 + sample.t, 10.0 + sample.t};
       const Quaterniond q(sample.X.linear());
       if (count % 7 == 0) filter.push_button(sample.t + 0.3 * kInterval, count % 70 != 63);
-      if (count % 7 == 0) filter.buttons_known(sample.t + 0.3 * kInterval, now);
+      if (count % 7 == 0) filter.confirm_buttons(sample.t + 0.3 * kInterval, now);
       filter.push_stylus({sample.t, sample.X.translation(), q}, RigidTransform::Identity(), now);
       if (++count % every == 0 || count == 200) commit(sample.t);
     }
@@ -325,7 +325,7 @@ TEST(InputFilter, AHandThatDoesNotExistIsRefusedByName) {
       [&] { filter.push_edge(0.0, motion::ButtonEdge::grasp, 2); },
       [&] { filter.push_external_wrench({}, 2); },
       [&] {
-        filter.buttons_known(0.0, {0.0, 0.0}, 2);
+        filter.confirm_buttons(0.0, {0.0, 0.0}, 2);
       },
       [&] {
         filter.report_arrival({0.0, 0.0}, 2);

@@ -188,14 +188,14 @@ TEST(SampleGate, AcceptsWhatAHandCanAlwaysDo) {
   EXPECT_EQ(after(1e-3, 0.0, 0.049), GateResult::accepted);
   EXPECT_EQ(after(1e-3, 0.0, 0.051), GateResult::turns_too_fast);
   EXPECT_EQ(after(5.1e-5, 0.0, 0.0), GateResult::accepted);
-  EXPECT_EQ(after(4.9e-5, 0.0, 0.0), GateResult::too_close);
-  EXPECT_EQ(after(0.6e-9, 0.0, 0.0), GateResult::too_close);
+  EXPECT_EQ(after(4.9e-5, 0.0, 0.0), GateResult::stamp_too_close);
+  EXPECT_EQ(after(0.6e-9, 0.0, 0.0), GateResult::stamp_too_close);
   EXPECT_EQ(after(0.4e-9, 0.0, 0.0), GateResult::not_later);
   for (const double share : {0.24, 0.26}) {  // of the usual interval
     SampleGate gate(settings, kDropout);
     for (int k = 0; k <= 100; ++k) gate.offer({0.01 * k, Vector3d(0.5, 0, 0), Quaterniond::Identity()});
     const GateResult result = gate.offer({1.0 + 0.01 * share, Vector3d(0.5, 0, 0), Quaterniond::Identity()});
-    EXPECT_EQ(result, share > 0.25 ? GateResult::accepted : GateResult::too_close);
+    EXPECT_EQ(result, share > 0.25 ? GateResult::accepted : GateResult::stamp_too_close);
   }
   for (const double radii : {9.0, 11.0}) {  // a jump to the origin
     SampleGate gate(InputSettings(), kDropout);
@@ -229,7 +229,7 @@ TEST(SampleGate, ComplaintsNameReasonFieldValueAndSettingInOneLine) {
            {GateResult::bad_quaternion, rotation, "input.quaternion_tolerance = 0.1"},
            {GateResult::too_far, position, "input.max_distance = 1000 m"},
            {GateResult::not_later, "stamp 1.5 s ", "the last sample"},
-           {GateResult::too_close, "stamp 1.5 s ", "the last sample"},
+           {GateResult::stamp_too_close, "stamp 1.5 s ", "the last sample"},
            {GateResult::too_fast, position, "input.max_speed = 10 m/s"},
            {GateResult::turns_too_fast, rotation, "input.max_turn_rate = 50 rad/s"},
            {GateResult::out_of_view, position, "input.origin_radius = 0.001 m"},

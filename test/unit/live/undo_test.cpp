@@ -82,9 +82,9 @@ TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
   EXPECT_EQ(bench.placements(), 0u);
   bench.continue_with(30);
   const double now = bench.time();
-  EXPECT_EQ(bench.runner.undo().message, "remove: other");
+  EXPECT_EQ(bench.runner.undo().message, "removed other");
   EXPECT_EQ(bench.objects().size(), 1u);
-  EXPECT_EQ(bench.runner.undo().message, "remove: held");
+  EXPECT_EQ(bench.runner.undo().message, "removed held");
   EXPECT_EQ(bench.time(), now);
   ASSERT_EQ(bench.objects().size(), 2u);
   EXPECT_EQ(bench.placements(), 1u);

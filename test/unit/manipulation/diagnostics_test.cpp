@@ -32,7 +32,7 @@ TEST(ManipulationDiagnostics, TellThatTheLoopWaitsForMessages) {
   }
 }
 
-/// Samples that all count as the return of a lost hand, which never moves.
+/// Samples that all come after a dropout: the hand never moves.
 TEST(ManipulationDiagnostics, TellThatSamplesComeFartherApartThanADropout) {
   ManipulationDiagnostics diagnostics("node", 0.5);
   std::vector<TrackerInput> styluses(1);
@@ -41,7 +41,7 @@ TEST(ManipulationDiagnostics, TellThatSamplesComeFartherApartThanADropout) {
   const std::pair<std::size_t, std::string> cases[] = {
       {1, "dropouts: 1 (1 since the start)"},
       {99,
-       "samples come 0.625 s apart, more than dropout_after = 0.5 s: each counts as the return of a lost hand, which "
+       "samples come 0.625 s apart, more than dropout_after = 0.5 s: each gap counts as a dropout, so the hand "
        "does not move; increase dropout_after"}};
   for (const auto& [dropouts, message] : cases) {
     styluses[0].hand.gate.dropouts = dropouts;

@@ -32,8 +32,8 @@ class Linear : public testing::Test {
   std::mt19937 random{5};
 
   TipFit<double> fit(const TipMotion& m, const Vector6d& start) const {
-    return TipFit<double>(*shape, math::three_by_three(m.X_HE.linear()), math::three(m.X_HE.translation()),
-                          math::three(m.v), math::three(m.w), start.data());
+    return TipFit<double>(*shape, math::mat3x3(m.X_HE.linear()), math::vec3(m.X_HE.translation()), math::vec3(m.v),
+                          math::vec3(m.w), start.data());
   }
   Vector6d strain(double size) {
     std::uniform_real_distribution<double> uniform(-size, size);
@@ -56,7 +56,7 @@ class Linear : public testing::Test {
     const Vector6d rate = Eigen::Map<const Vector6d>(found.q_dot);
     double f[6];
     Vector6d::Map(f) = generalised;
-    math::Three<double> force, moment;
+    math::Vec3<double> force, moment;
     found.wrench(f, force, moment);
     // No motion of the tip, even a nearly impossible one, requires more than a thousand times as much strain.
     ASSERT_LE(scaled(rate).norm(), 1000.1 * std::hypot(m.v.norm() / L, m.w.norm()));
@@ -201,14 +201,14 @@ TEST_F(Linear, SeveralAtOnceAreEachByItself) {
     std::array<Vector6d, 4> each;
     each.fill(Vector6d::Zero());
     for (double t = 0.1; t < 6.0; t += 0.1) {
-      math::ThreeByThree<math::Pack> R;
-      math::Three<math::Pack> p, v, w;
+      math::Mat3x3<math::Pack> R;
+      math::Vec3<math::Pack> p, v, w;
       for (int l = 0; l < 4; ++l) {
         const TipMotion m = path.at(t + 0.3 * l);
-        math::set_lane(R, l, math::three_by_three(m.X_HE.linear()));
-        math::set_lane(p, l, math::three(m.X_HE.translation()));
-        math::set_lane(v, l, math::three(m.v));
-        math::set_lane(w, l, math::three(m.w));
+        math::set_lane(R, l, math::mat3x3(m.X_HE.linear()));
+        math::set_lane(p, l, math::vec3(m.X_HE.translation()));
+        math::set_lane(v, l, math::vec3(m.v));
+        math::set_lane(w, l, math::vec3(m.w));
       }
       const TipFit<math::Pack> all(*shape, R, p, v, w, q);
       for (int l = 0; l < 4; ++l) {

@@ -628,7 +628,7 @@ TEST_F(LoadScene, BadYamlIsRefusedWithLineAndKey) {
            {"objects:\n  part: {friction: 0.1}\n  part: {friction: 0.2}", ":3:", "objects.part: given twice"},
            {"targets: {part: {pose: [0, 0, 0, 0, 0, 0, 1]},\n  part: {pose: [1, 0, 0, 0, 0, 0, 1]}}",
             ":2:", "targets.part: given twice"},
-           {"gravity: 1\n---\ngravity: 2", ": documents:", "expected one in a file, got more"},
+           {"gravity: 1\n---\ngravity: 2", ": contains several YAML documents", "expected one"},
            {"objects:\n  part: {pose: [0, 0, 0, 0, 0, 0, 1]}", ":2:", "objects.part.pose"},
            {"objects:\n  mug: {urdf: nothing.urdf}", ":2:", "objects.mug.urdf"},
            {"targets:\n  nobody: {pose: [0, 0, 0, 0, 0, 0, 1]}", ":2:", "nobody"},

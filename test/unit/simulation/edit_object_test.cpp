@@ -201,7 +201,7 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
   expect(new_mass("held", -1.0), "mass: invalid value '-1': expected a number between 0 and 1e12 kg");
   expect(new_friction("held", -0.1), "friction: invalid value '-0.1': expected a number >= 0");
   expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))), "name: held is held or pushed; release it first");
-  expect({Action::move, "below", "", std::nullopt}, "pose: expected a pose to move to");
+  expect({Action::move, "below", "", std::nullopt}, "pose: expected a pose to move to (quaternion not zero)");
   expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "pose: expected a finite pose");
   expect(addition("wall", std::nullopt), "name: invalid value 'wall': expected a name that is not in use");
   expect(

@@ -216,7 +216,7 @@ TEST(StepControl, GoesOnInWholeStepsWhereALoadAndTheSpringsCancel) {
     c.held.set_springs(fork);
     const Vector3d F = 0.005 * stiffness * Vector3d(uniform(random), uniform(random), uniform(random));
     c.held.set_load({F, Vector3d(0.05 * uniform(random), 0.05 * uniform(random), -0.02).cross(F)});
-    const motion::MotionSegment hand(c.held.forcing(c.hand, 0.0).X_WH);
+    const motion::MotionSegment hand(c.held.motion_at(c.hand, 0.0).X_WH);
     for (const double h : {0.02, 0.002, 0.0003}) {
       const StepControl control(test_support::make_integrator("exponential"));
       StepControl::Memory memory;
@@ -348,7 +348,7 @@ TEST(StepControl, AStopAddsNoEnergyWhateverTheStepHasGained) {
     for (int trial = 0; trial < 20; ++trial) {
       const HeldBody held = random_case(shape, 0.0, 1.0, random).held;
       const auto energy = [&](const StrainState& s) {
-        const motion::MotionState o = held.object(held.forcing(rest, 0.0), s);
+        const motion::MotionState o = held.object(held.motion_at(rest, 0.0), s);
         return held.elastic_energy(0.0, s) + held.kinetic_energy(o.velocity, o.X.linear()) +
                held.body().mass * held.gravity() * o.X.translation().z();
       };
