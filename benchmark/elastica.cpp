@@ -45,7 +45,7 @@ dynamics::HeldBody bending_body(const std::string& shape) {
 }
 
 /// Newton's method on q̈ = 0 at rest.
-void find_rest(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle, rod::StrainVector& q) {
+void find_rest(const dynamics::HeldBody& body, const dynamics::HandleState& handle, rod::StrainVector& q) {
   const rod::StrainVector still = rod::StrainVector::Zero(body.size()), K = body.stiffness();
   for (int iteration = 0; iteration < 50; ++iteration) {
     rod::StrainMatrix slope(body.size(), body.size());
@@ -79,7 +79,7 @@ TipDeflection exact_elastica(double alpha) {
 
 TipDeflection shape_deflection(const std::string& shape, double alpha) {
   dynamics::HeldBody body = bending_body(shape);
-  const dynamics::HandleMotion handle = body.motion_at(motion::MotionSegment(RigidTransform::Identity()), 0.0);
+  const dynamics::HandleState handle = body.state_at(motion::MotionSegment(RigidTransform::Identity()), 0.0);
   const double EI = kBend * kLength * kLength * kLength / 3.0;
   rod::StrainVector q = rod::StrainVector::Zero(body.size());
   for (int step = 1; step <= kLoadSteps; ++step) {
@@ -114,7 +114,7 @@ double evaluation_cost(const std::string& shape) {
       rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), kLength),
       dynamics::BodyInertia(), 9.81);
   body.set_springs({2000.0, kBend, 5.0}, {1.0, 1.0, 1.0});
-  const dynamics::HandleMotion handle = body.motion_at(motion::MotionSegment(RigidTransform::Identity()), 0.0);
+  const dynamics::HandleState handle = body.state_at(motion::MotionSegment(RigidTransform::Identity()), 0.0);
   rod::StrainVector q = rod::StrainVector::Constant(body.size(), 0.05), q_dot = q;
   double least = std::numeric_limits<double>::infinity(), spent = 0.0;
   while (spent < 0.05) {

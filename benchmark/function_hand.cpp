@@ -14,8 +14,8 @@ motion::BodyRateState FunctionHand::body_rate_state(double t) const {
   return m;
 }
 
-motion::BodyFrameMotion<math::Pack> FunctionHand::body_frame_motion(const math::Pack& t, double gravity) const {
-  motion::BodyFrameMotion<math::Pack> all;
+motion::BodyFrameRates<math::Pack> FunctionHand::body_frame_rates(const math::Pack& t, double gravity) const {
+  motion::BodyFrameRates<math::Pack> all;
   for (int i = 0; i < math::pack_size; ++i) {
     const motion::BodyRateState m = body_rate_state(t[i]);
     const Matrix3d R_BW = m.X.linear().transpose();

@@ -65,7 +65,7 @@ bool RodForce::can_push(const RodCase& one, const std::string& shape) {
 }
 
 FreeBody RodForce::body() const {
-  const motion::MotionState O = held_.object(held_.motion_at(samples_.handle(0.0), 0.0), held_.zero_state());
+  const motion::MotionState O = held_.object(held_.state_at(samples_.handle(0.0), 0.0), held_.zero_state());
   const Vector3d w_WO_O = O.X.linear().transpose() * O.velocity.angular;
   return {held_.body().mass,
           held_.body().inertia_O.diagonal(),

@@ -31,7 +31,7 @@ std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, double
 /// Interface to the library: rates of the strain and its rate, and the pose of the object.
 class Equations {
  public:
-  Equations(const RodCase& one, const std::string& shape, const motion::FrameMotion* function)
+  Equations(const RodCase& one, const std::string& shape, const motion::Trajectory* function)
       : body_(held_body(one, shape)), hand_(function) {
     if (function == nullptr) samples_.emplace(one.hand, one.fork.length);
     for (int i = 0; i < body_.size(); ++i) inside_[static_cast<std::size_t>(i)] = 1.0 / admissible_strain(i);
@@ -81,16 +81,16 @@ class Equations {
     return body_.shape().admissible(body_.full_state(t, {q, Eigen::Matrix<double, n, 1>::Zero()}).q);
   }
   /// The hand at `t`, cached for repeated calls with the same time.
-  const dynamics::HandleMotion& forcing(double t) const {
-    if (!known_ || known_->t != t) known_ = body_.motion_at(*hand_, t);
+  const dynamics::HandleState& forcing(double t) const {
+    if (!known_ || known_->t != t) known_ = body_.state_at(*hand_, t);
     return *known_;
   }
 
   dynamics::HeldBody body_;
   std::array<double, rod::max_strain_coordinates> inside_{};
   std::optional<SampledHand> samples_;
-  const motion::FrameMotion* hand_;
-  mutable std::optional<dynamics::HandleMotion> known_;
+  const motion::Trajectory* hand_;
+  mutable std::optional<dynamics::HandleState> known_;
 };
 
 /// The rates for the number of coordinates; with `through`, with the hand's segment at each time.
@@ -167,7 +167,7 @@ bool gains_from_long_steps(const std::string& solver) {
 }
 
 RodRun run_solver(const RodCase& one, const std::string& shape, const std::string& name, double setting,
-                  StepEnds step_ends_at, const motion::FrameMotion* function) {
+                  StepEnds step_ends_at, const motion::Trajectory* function) {
   using Clock = std::chrono::steady_clock;
   Equations equations(one, shape, function);
   const int size = 2 * equations.body().size();

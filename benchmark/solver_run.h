@@ -33,6 +33,6 @@ enum class StepEnds { samples, samples_and_outputs };
 /// their error estimate. If `function` is given, it is the hand, and the steps are free. The timed loop contains the
 /// steps and the poses at the outputs. Not finite if the method fails.
 RodRun run_solver(const RodCase& one, const std::string& shape, const std::string& solver, double setting,
-                  StepEnds step_ends_at, const motion::FrameMotion* function = nullptr);
+                  StepEnds step_ends_at, const motion::Trajectory* function = nullptr);
 
 }  // namespace spring_workbench::benchmark

@@ -53,14 +53,14 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
   integrator->step(body, hand[0], 0.0, h, state);
   const dynamics::StrainState moving = state;
   const dynamics::StrainState full = body.full_state(h, moving);
-  const dynamics::HandleMotion forcing = body.motion_at(hand[1], h);
+  const dynamics::HandleState forcing = body.state_at(hand[1], h);
 
   volatile double sink = 0.0;  // prevents the compiler from removing the computation
   rod::TipKinematics tip;
   const auto note = [&](const char* part, auto&& call) {
     costs.push_back({shape, body.size(), part, min_nanoseconds(calls, call)});
   };
-  note("hand at one moment", [&](int i) { sink = body.motion_at(hand[1], h * (1.0 + 0.001 * i)).w_WH_H[0]; });
+  note("hand at one moment", [&](int i) { sink = body.state_at(hand[1], h * (1.0 + 0.001 * i)).w_WH_H[0]; });
   note("tip", [&](int) {
     body.shape().tip(full.q, full.q_dot, tip);
     sink = tip.p_HE[0];

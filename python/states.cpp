@@ -129,7 +129,8 @@ void bind_contact(py::module& module) {
       .def_readonly("force", &ContactState::force,
                     "This point's share of the normal force between the two bodies, as a mean over the last 20 ms [N]. "
                     "Once the contact has ended, the force is the share in its last step.")
-      .def_readonly("slip_speed", &ContactState::slip_speed, "Speed of the object along the surface [m/s].")
+      .def_readonly("slip_speed", &ContactState::slip_speed,
+                    "Speed of the object along the other body's surface [m/s].")
       .def_property_readonly(
           "phase", [](const ContactState& c) { return phase_of(c.phase); },
           "Phase in the last call of `advance_to`: started, persisting or ended.");

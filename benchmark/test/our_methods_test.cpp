@@ -32,7 +32,7 @@ double integrator_error(const std::string& name, const Scenario& scene, int step
       scene, scene.output_interval / steps_per_interval,
       [&](double t, double h) { integrator->step(body, hand, t, h, state); },
       [&](double t) -> Vector3d {
-        const dynamics::HandleMotion handle = body.motion_at(hand, t);
+        const dynamics::HandleState handle = body.state_at(hand, t);
         if (scene.kind != SceneKind::torsion) return body.object(handle, state).X.translation();
         return {0.0, 0.0, math::log_so3(handle.X_WH.linear()).z() + state.q[0]};  // not limited to half a turn
       });

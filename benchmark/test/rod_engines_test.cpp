@@ -48,7 +48,7 @@ TEST(RodForce, ABodyUnderItHasTheAccelerationOfTheEquationOfMotion) {
         dynamics::StrainState state = held.zero_state();
         for (int k = 0; k < 6; ++k) state.q[k] = share(random) * held.units()[k];
         for (int k = 0; k < 6; ++k) state.q_dot[k] = 10.0 * share(random) * held.units()[k];
-        const dynamics::HandleMotion handle = held.motion_at(hand.handle(t), t);
+        const dynamics::HandleState handle = held.state_at(hand.handle(t), t);
         const rod::StrainVector q_ddot = held.acceleration(handle, state.q, state.q_dot);
         const motion::MotionState O = held.object(handle, state, &q_ddot);
         const BodyState body = body_at(O);
@@ -105,7 +105,7 @@ TEST(RodForce, OfTheEndOfAStepIsTheLawAtTheStateThatItLeadsTo) {
     for (int i = 0; i < 10; ++i) {
       dynamics::StrainState state = held.zero_state();
       for (int k = 0; k < 6; ++k) state.q[k] = share(random) * held.units()[k];
-      BodyState body = body_at(held.object(held.motion_at(hand.handle(0.0), 0.0), state));
+      BodyState body = body_at(held.object(held.state_at(hand.handle(0.0), 0.0), state));
       const double h = 0.05 / std::sqrt(stiffness);
       body.v_WO_W = h * 9.81 * Vector3d::UnitZ();  // the law is linearised where the body would be without it
       const Wrench load = RodForce(one, "linear", When::end_of_step).load(0.0, h, body);

@@ -117,7 +117,7 @@ std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& s
   const auto cvode = make_cvode(CvodeFormula::bdf, 2 * n, [&](double t, const double* y, double* rate) {
     Eigen::Map<Eigen::VectorXd>(rate, n) = state(y).q_dot;
     Eigen::Map<Eigen::VectorXd>(rate + n, n) =
-        body.acceleration(body.motion_at(*segment, t), state(y).q, state(y).q_dot);
+        body.acceleration(body.state_at(*segment, t), state(y).q, state(y).q_dot);
     return true;
   });
   std::vector<double> y(static_cast<std::size_t>(2 * n), 0.0), scale = y;
@@ -126,12 +126,12 @@ std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& s
     scale[static_cast<std::size_t>(i)] = (i < n ? 1.0 : 10.0) * strain;
   }
   cvode->begin(0.0, y, 1e-12, scale);
-  std::vector<RigidTransform> poses{body.object(body.motion_at(*segment, 0.0), state(y.data())).X};
+  std::vector<RigidTransform> poses{body.object(body.state_at(*segment, 0.0), state(y.data())).X};
   for (const double end : output_times(one)) {
     if (end == 0.0) continue;
     segment = &track.segment(end - 0.01);
     const double* reached = cvode->advance(end, end);
-    poses.push_back(body.object(body.motion_at(*segment, end), state(reached)).X);
+    poses.push_back(body.object(body.state_at(*segment, end), state(reached)).X);
   }
   return poses;
 }

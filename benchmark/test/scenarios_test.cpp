@@ -124,7 +124,7 @@ TEST(Scenarios, AHandThatIsAFunctionIsTheSameAtFourTimesAtOnce) {
   for (const Scenario& scene : all_scenes()) {
     const FunctionHand hand(scene);
     const math::Pack t{0.0, 0.3, 1.7, 3.9};
-    const motion::BodyFrameMotion<math::Pack> all = hand.body_frame_motion(t, 9.81);
+    const motion::BodyFrameRates<math::Pack> all = hand.body_frame_rates(t, 9.81);
     for (int i = 0; i < math::pack_size; ++i) {
       const motion::BodyRateState one = hand.body_rate_state(t[i]);
       const Matrix3d R = math::matrix(all.R_WB, i);

@@ -17,12 +17,12 @@ class Heun : public dynamics::Integrator {
  public:
   int order() const override { return 2; }
 
-  dynamics::StepEstimate step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  dynamics::StepEstimate step(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                               dynamics::StrainState& state) override {
     const dynamics::StrainState begin = state;
-    const rod::StrainVector a = body.acceleration(body.motion_at(handle, t), begin.q, begin.q_dot);
+    const rod::StrainVector a = body.acceleration(body.state_at(handle, t), begin.q, begin.q_dot);
     const rod::StrainVector q_euler = begin.q + h * begin.q_dot, q_dot_euler = begin.q_dot + h * a;
-    const rod::StrainVector a_euler = body.acceleration(body.motion_at(handle, t + h), q_euler, q_dot_euler);
+    const rod::StrainVector a_euler = body.acceleration(body.state_at(handle, t + h), q_euler, q_dot_euler);
     state.q = begin.q + 0.5 * h * (begin.q_dot + q_dot_euler);
     state.q_dot = begin.q_dot + 0.5 * h * (a + a_euler);
     // The difference between Heun's and Euler's result estimates the error of Euler's method, so it is larger than the

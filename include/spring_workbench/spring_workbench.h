@@ -1,7 +1,8 @@
 #pragma once
 
-/// Includes everything that a program needs of the library. Begin with simulation::Simulation, scene::load_scene() and
-/// make_transform(); doc/library.md shows how they work together. Units are SI, and frames are right-handed with z up.
+/// The whole library: virtual tools made of springs, and what they move. Begin with simulation::Simulation,
+/// scene::load_scene() and make_transform(); doc/library.md shows how they work together. Units are SI, and frames are
+/// right-handed with z up.
 namespace spring_workbench {
 /// Scenes, read from URDF.
 namespace scene {}
@@ -25,7 +26,7 @@ namespace motion {}
 namespace motion_files {}
 /// Filters between a tracker and the simulation.
 namespace hand_input {}
-/// Numbers, poses and saved states. Packs, which hold several numbers, only make built-in methods fast: users of the
+/// Packs of numbers and saved states. Packs, which hold several numbers, only make built-in methods fast: users of the
 /// interface with `double` can ignore them.
 namespace math {}
 /// Errors in the user's input.

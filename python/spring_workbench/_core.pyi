@@ -221,7 +221,7 @@ class ContactState:
         contact has ended, the force is the share in its last step."""
     @property
     def slip_speed(self) -> float:
-        """Speed of the object along the surface [m/s]."""
+        """Speed of the object along the other body's surface [m/s]."""
     @property
     def phase(self) -> Literal["started", "persisting", "ended"]:
         """Phase in the last call of `advance_to`: started, persisting or ended."""

@@ -15,6 +15,10 @@ bool contains_pair(const std::vector<ContactState>& list, const ContactState& c)
                      [&](const ContactState& other) { return other.object == c.object && other.other == c.other; });
 }
 
+Vector3d velocity_at(const bodies::BodyState& body, const Vector3d& p_W) {
+  return body.V_WO_W.linear + body.V_WO_W.angular.cross(p_W - body.X_WO.translation());
+}
+
 }  // namespace
 
 ContactRow row_of(const rigid_bodies::WorldContact& contact, double h) {
@@ -26,6 +30,11 @@ ContactRow row_of(const rigid_bodies::WorldContact& contact, double h) {
   return row;
 }
 
+ContactLog::ContactLog(const scene::Scene& scene) : scene_(scene) {
+  std::size_t objects = 0;
+  for (const scene::Body& body : scene.bodies) object_of_.push_back(body.movable ? objects++ : objects);
+}
+
 void ContactLog::reset(std::size_t objects) {
   touching_.assign(objects, {});
   with_contacts_.clear();
@@ -35,19 +44,21 @@ void ContactLog::reset(std::size_t objects) {
   reported_.clear();
 }
 
-void ContactLog::note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows,
-                      double h) {
+void ContactLog::note(std::size_t object, const std::vector<bodies::BodyState>& states,
+                      const std::vector<ContactRow>& rows, double h) {
   std::vector<ContactState> now_touching;
   for (const ContactRow& row : rows) {
     ContactState c;
-    c.object = state.name;
+    c.object = states[object].name;
     c.other = row.point.other == collision::CollisionWorld::bench ? "workbench" : scene_.bodies[row.point.other].name;
     c.p_W = row.point.p_W;
     c.n_W = row.point.n_W;
     c.depth = std::max(0.0, -row.gap);
     c.impulse = std::max(0.0, row.impulse_W.dot(row.point.n_W));
-    const Vector3d v = state.V_WO_W.linear + state.V_WO_W.angular.cross(row.point.p_W - state.X_WO.translation());
-    c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
+    Vector3d v = velocity_at(states[object], c.p_W);
+    if (c.other != "workbench" && scene_.bodies[row.point.other].movable)
+      v -= velocity_at(states[object_of_[row.point.other]], c.p_W);
+    c.slip_speed = (v - c.n_W * v.dot(c.n_W)).norm();
     now_touching.push_back(c);
   }
   if (!now_touching.empty()) set_forces(object, h, now_touching);

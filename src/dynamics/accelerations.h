@@ -8,7 +8,7 @@ namespace spring_workbench::dynamics {
 
 /// q̈ at up to four moments side by side: at each its state, in a column of `q` and `q_dot`.
 template <int n, int columns>
-Eigen::Matrix<double, n, columns> accelerations(const HeldBody& body, const HandleMotions& handle,
+Eigen::Matrix<double, n, columns> accelerations(const HeldBody& body, const HandleStates& handle,
                                                 const Eigen::Matrix<double, n, columns>& q,
                                                 const Eigen::Matrix<double, n, columns>& q_dot) {
   static_assert(columns <= math::pack_size);

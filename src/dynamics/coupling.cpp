@@ -41,7 +41,7 @@ bool Couplings::attach(const std::vector<Attached>& couplings) {
   return !same;
 }
 
-void Couplings::find_relative_motions(const motion::FrameMotion& handle, double t, RelativeMotions<double>& A_H) const {
+void Couplings::find_relative_motions(const motion::Trajectory& handle, double t, RelativeMotions<double>& A_H) const {
   A_H.resize(attached_.size());
   for (std::size_t i = 0; i < A_H.count; ++i) {
     const Attached& a = attached_[i];
@@ -52,7 +52,7 @@ void Couplings::find_relative_motions(const motion::FrameMotion& handle, double 
   }
 }
 
-void Couplings::find_relative_motions(const motion::FrameMotion& handle, const math::Pack& t,
+void Couplings::find_relative_motions(const motion::Trajectory& handle, const math::Pack& t,
                                       RelativeMotions<math::Pack>& A_H) const {
   A_H.resize(attached_.size());
   for (const Attached& a : attached_) a.coupling->begin_step();

@@ -31,7 +31,7 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
                                                                                  const rod::TipOf<S>& tip,
                                                                                  const S* q_dot,
                                                                                  const S* q_ddot) const {
-  const motion::BodyFrameMotion<S>& h = handle.of_H;
+  const motion::BodyFrameRates<S>& h = handle.of_H;
   Rigid<S> r;  // NOLINT(cppcoreguidelines-pro-type-member-init): all of it is set below
   r.r_EO = tip.R_HE * math::vec3(p_EO_);
   r.R_HO = tip.R_HE * math::mat3x3(R_EO_);

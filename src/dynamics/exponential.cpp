@@ -12,7 +12,7 @@ namespace spring_workbench::dynamics {
 class Exponential::Core {
  public:
   virtual ~Core() = default;
-  virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  virtual StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                             StrainState& state) = 0;
   /// Returns nullptr if the linear part is that of other equations.
   virtual const Response* response(const HeldBody& body, double h) = 0;
@@ -25,16 +25,16 @@ class Exponential::Core {
 template <int n>
 class Exponential::CoreOf final : public Core {
  public:
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override {
     if (version_ != body.version() || refactorisation_.is_due(state.q, modes().q_reference, modes().mass)) {
-      linearise(body, body.motion_at(handle, t), state.q);
+      linearise(body, body.state_at(handle, t), state.q);
     }
     const StrainState begin = state;
     const bool predicted = steps_.has_history();
     StepEstimate e = iterate(body, handle, t, h, state);
     if (!e.converged && (predicted || begin.q != modes().q_reference)) {
-      linearise(body, body.motion_at(handle, t), begin.q);
+      linearise(body, body.state_at(handle, t), begin.q);
       state = begin;
       e = iterate(body, handle, t, h, state);
     }
@@ -75,14 +75,14 @@ class Exponential::CoreOf final : public Core {
 
   const ModalDecomposition& modes() const { return steps_.propagator().modes(); }
 
-  void linearise(const HeldBody& body, const HandleMotion& handle, const rod::StrainVector& q) {
+  void linearise(const HeldBody& body, const HandleState& handle, const rod::StrainVector& q) {
     refactorisation_.restart(q);
     steps_.set(modal_decomposition(body, handle, q));
     version_ = body.version();
   }
 
-  SPRING_WORKBENCH_WIDE StepEstimate iterate(const HeldBody& body, const motion::FrameMotion& handle, double t,
-                                             double h, StrainState& state) {
+  SPRING_WORKBENCH_WIDE StepEstimate iterate(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
+                                             StrainState& state) {
     Strain q = state.q, q_dot = state.q_dot;
     const typename Steps::Result result = steps_.step(Equation(body), handle, t, h, q, q_dot);
     refactorisation_.add(steps_.convergence().iterations());
@@ -113,13 +113,13 @@ Exponential::Core& Exponential::core(int n) {
   return *core_;
 }
 
-StepEstimate Exponential::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+StepEstimate Exponential::step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                StrainState& state) {
   if (body.size() == 0) return {rod::StrainVector::Zero(0), 0.0, rod::StrainVector::Zero(0), true};
   return core(body.size()).step(body, handle, t, h, state);
 }
 
-void Exponential::propagate_deviation(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&,
+void Exponential::propagate_deviation(const HeldBody&, const motion::Trajectory&, double, double, const StrainState&,
                                       const StrainState&, StrainState& deviation) {
   if (deviation.q.size() > 0) core_->propagate_deviation(deviation);  // of the last step
 }
@@ -140,7 +140,7 @@ void Exponential::archive(math::StateArchive& state) {
   n_ = 0;
 }
 
-Integrator::Response Exponential::response(const HeldBody& body, const HandleMotion& handle, double h,
+Integrator::Response Exponential::response(const HeldBody& body, const HandleState& handle, double h,
                                            const StrainState& state) {
   const Response* known = body.size() > 0 && body.size() == n_ ? core_->response(body, h) : nullptr;
   return known != nullptr ? *known : Integrator::response(body, handle, h, state);

@@ -23,14 +23,14 @@ class Exponential final : public Integrator {
   int order() const override { return 5; }  // of a mode that the step does not resolve; otherwise more
   bool stiffly_stable() const override { return true; }
   Energy energy() const override { return Energy::conserved; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override;
-  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  void propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
   bool tracks_run_error() const override { return true; }
   void propagate_run_error(const HeldBody& body, RunError& error) override;
   std::optional<StepWork> work(const HeldBody& body) const override;
-  Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state) override;
+  Response response(const HeldBody& body, const HandleState& handle, double h, const StrainState& state) override;
   void archive(math::StateArchive& state) override;
   bool restores_completely() const override { return true; }
 

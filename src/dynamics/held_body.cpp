@@ -48,10 +48,10 @@ rod::PerDof HeldBody::damping_of(const rod::PerDof& stiffness, const rod::PerDof
 }
 
 void HeldBody::set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio) {
-  set_springs_and_dampers(stiffness, damping_of(stiffness, damping_ratio));
+  set_coefficients(stiffness, damping_of(stiffness, damping_ratio));
 }
 
-void HeldBody::set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping) {
+void HeldBody::set_coefficients(const rod::PerDof& stiffness, const rod::PerDof& damping) {
   stiffness_ = stiffness;
   damping_ = damping;
   K_ = shape_->stiffness(stiffness);
@@ -61,7 +61,7 @@ void HeldBody::set_springs_and_dampers(const rod::PerDof& stiffness, const rod::
 }
 
 void HeldBody::set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio) {
-  set_springs_and_dampers(stiffness, rod::PerDof());
+  set_coefficients(stiffness, rod::PerDof());
   damping_ = damping_of(stiffness, {damping_ratio, damping_ratio, damping_ratio});
   modal_ = true;
   modal_ratio_ = damping_ratio;
@@ -75,7 +75,7 @@ void HeldBody::set_springs(const rod::ForkSettings& fork) {
     case rod::DampingLaw::modal:
       return set_springs_with_modal_damping(fork.stiffness, fork.damping_ratio.stretch);
     case rod::DampingLaw::coefficients:
-      return set_springs_and_dampers(fork.stiffness, fork.damping_coefficient);
+      return set_coefficients(fork.stiffness, fork.damping_coefficient);
   }
 }
 
@@ -91,7 +91,7 @@ void HeldBody::attach(const std::vector<Attached>& couplings) {
   if (couplings_.attach(couplings)) ++version_;
 }
 
-HeldBody::Springs HeldBody::springs(const HandleMotion& h, const rod::StrainVector& q) const {
+HeldBody::Springs HeldBody::springs(const HandleState& h, const rod::StrainVector& q) const {
   Springs all{stiffness().asDiagonal(), damping()};
   if (!coupled()) return all;
   const Coupling::Springs more = read_couplings(h, {q, rod::StrainVector::Zero(size())}).springs;

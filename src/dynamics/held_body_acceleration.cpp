@@ -4,9 +4,9 @@
 
 namespace spring_workbench::dynamics {
 
-HandleMotion HeldBody::motion_at(const motion::FrameMotion& handle, double t) const {
+HandleState HeldBody::state_at(const motion::Trajectory& handle, double t) const {
   const motion::BodyRateState m = handle.body_rate_state(t);
-  HandleMotion f;
+  HandleState f;
   f.t = t;
   f.X_WH = m.X;
   f.v_WH_W = m.v_W;
@@ -17,16 +17,16 @@ HandleMotion HeldBody::motion_at(const motion::FrameMotion& handle, double t) co
   return f;
 }
 
-HandleMotions HeldBody::motion_at(const motion::FrameMotion& handle, const math::Pack& t) const {
-  HandleMotions f;
+HandleStates HeldBody::state_at(const motion::Trajectory& handle, const math::Pack& t) const {
+  HandleStates f;
   f.t = t;
-  f.of_H = handle.body_frame_motion(t, gravity_);
+  f.of_H = handle.body_frame_rates(t, gravity_);
   couplings_.find_relative_motions(handle, t, f.relative_motions);
   return f;
 }
 
-HandleMotion HandleMotions::at(int i) const {
-  HandleMotion f;
+HandleState HandleStates::at(int i) const {
+  HandleState f;
   f.t = math::lane(t, i);
   f.X_WH.linear() = math::matrix(of_H.R_WB, i);
   f.w_WH_H = math::vector(of_H.w_B, i);
@@ -38,7 +38,7 @@ HandleMotion HandleMotions::at(int i) const {
 }
 
 template <int n>
-Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleMotion& h, const Eigen::Matrix<double, n, 1>& q,
+Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleState& h, const Eigen::Matrix<double, n, 1>& q,
                                                    const Eigen::Matrix<double, n, 1>& q_dot) const {
   const HandleRates<double> forcing{h.t,
                                     {math::mat3x3(h.X_WH.linear()), math::zero<double>(), math::vec3(h.w_WH_H),
@@ -50,16 +50,15 @@ Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleMotion& h, const 
 }
 
 template <int n>
-SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleMotions& h, const math::Pack* q, const math::Pack* q_dot,
+SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleStates& h, const math::Pack* q, const math::Pack* q_dot,
                                                   math::Pack* q_ddot) const {
   accelerate<n, math::Pack>(h, q, q_dot, q_ddot);
 }
 
-#define SPRING_WORKBENCH_FOR_SIZE(n)                                                                               \
-  template Eigen::Matrix<double, n, 1> HeldBody::acceleration<n>(                                                  \
-      const HandleMotion&, const Eigen::Matrix<double, n, 1>&, const Eigen::Matrix<double, n, 1>&) const;          \
-  template void HeldBody::acceleration<n>(const HandleMotions&, const math::Pack*, const math::Pack*, math::Pack*) \
-      const;
+#define SPRING_WORKBENCH_FOR_SIZE(n)                                                                     \
+  template Eigen::Matrix<double, n, 1> HeldBody::acceleration<n>(                                        \
+      const HandleState&, const Eigen::Matrix<double, n, 1>&, const Eigen::Matrix<double, n, 1>&) const; \
+  template void HeldBody::acceleration<n>(const HandleStates&, const math::Pack*, const math::Pack*, math::Pack*) const;
 SPRING_WORKBENCH_FOR_SIZE(1)
 SPRING_WORKBENCH_FOR_SIZE(2)
 SPRING_WORKBENCH_FOR_SIZE(3)
@@ -68,7 +67,7 @@ SPRING_WORKBENCH_FOR_SIZE(5)
 SPRING_WORKBENCH_FOR_SIZE(6)
 #undef SPRING_WORKBENCH_FOR_SIZE
 
-rod::StrainVector HeldBody::acceleration(const HandleMotion& h, const rod::StrainVector& q,
+rod::StrainVector HeldBody::acceleration(const HandleState& h, const rod::StrainVector& q,
                                          const rod::StrainVector& q_dot) const {
   return math::by_size(size(), [&](auto size) -> rod::StrainVector {
     constexpr int n = decltype(size)::value;

@@ -5,10 +5,10 @@
 namespace spring_workbench::dynamics {
 
 template <int n>
-SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleMotions& handle, const math::Pack* q, const math::Pack* q_dot,
+SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleStates& handle, const math::Pack* q, const math::Pack* q_dot,
                                              EnergyBalance& out) const {
   using math::Pack, math::Vec3;
-  const motion::BodyFrameMotion<Pack>& h = handle.of_H;
+  const motion::BodyFrameRates<Pack>& h = handle.of_H;
   Pack springs[n];
   spring_forces<n>(q, q_dot, springs);
   rod::TipOf<Pack> tip;  // NOLINT(cppcoreguidelines-pro-type-member-init): rigid() sets all of it
@@ -33,7 +33,7 @@ SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleMotions& handle, const 
                dot(math::transposed(h.R_WB, math::vec3(load_W_.moment)), object.R_HO * object.w_O - h.w_B);
 }
 
-EnergyBalance HeldBody::energy_balance(const HandleMotions& h, const math::Pack* q, const math::Pack* q_dot) const {
+EnergyBalance HeldBody::energy_balance(const HandleStates& h, const math::Pack* q, const math::Pack* q_dot) const {
   EnergyBalance all = math::by_size(size(), [&](auto size) {
     EnergyBalance out;  // NOLINT(cppcoreguidelines-pro-type-member-init): balance() sets all of it
     balance<decltype(size)::value>(h, q, q_dot, out);
@@ -45,7 +45,7 @@ EnergyBalance HeldBody::energy_balance(const HandleMotions& h, const math::Pack*
       state.q[i] = q[i][k];
       state.q_dot[i] = q_dot[i][k];
     }
-    const HandleMotion at = h.at(k);
+    const HandleState at = h.at(k);
     const Couplings::Reading others = read_couplings(at, state);
     const Vector3d p_HO_W = object(at, state).X.translation() - at.X_WH.translation();
     const Wrench& pull = others.pull_W;
@@ -56,7 +56,7 @@ EnergyBalance HeldBody::energy_balance(const HandleMotions& h, const math::Pack*
   return all;
 }
 
-Couplings::Reading HeldBody::read_couplings(const HandleMotion& h, const StrainState& state) const {
+Couplings::Reading HeldBody::read_couplings(const HandleState& h, const StrainState& state) const {
   if (!coupled()) return {};
   const StrainState full = full_state(h.t, state);
   const rod::TipOf<double>& tip = this->tip(full.q.data(), full.q_dot.data(), false);

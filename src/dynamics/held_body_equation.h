@@ -14,25 +14,25 @@ template <int n>
 class HeldBodyEquation {
  public:
   using ModalDecomposition = dynamics::ModalDecomposition;
-  using Input = motion::FrameMotion;  ///< of the handle
-  using Forcing = HandleMotions;
+  using Input = motion::Trajectory;  ///< of the handle
+  using Forcing = HandleStates;
   using Strain = Eigen::Matrix<double, n, 1>;
   using NodeStrains = std::array<math::Pack, n>;
 
   explicit HeldBodyEquation(const HeldBody& body) : body_(body) {}
 
-  HandleMotions forcing(const Input& handle, const math::Pack& t) const { return body_.motion_at(handle, t); }
-  SPRING_WORKBENCH_INLINE void acceleration(const HandleMotions& forcing, const math::Pack* q, const math::Pack* q_dot,
+  HandleStates forcing(const Input& handle, const math::Pack& t) const { return body_.state_at(handle, t); }
+  SPRING_WORKBENCH_INLINE void acceleration(const HandleStates& forcing, const math::Pack* q, const math::Pack* q_dot,
                                             math::Pack* q_ddot) const {
     body_.template acceleration<n>(forcing, q, q_dot, q_ddot);
   }
   Strain acceleration(const Input& handle, double t, const Strain& q, const Strain& q_dot) const {
-    return body_.template acceleration<n>(body_.motion_at(handle, t), q, q_dot);
+    return body_.template acceleration<n>(body_.state_at(handle, t), q, q_dot);
   }
 
   /// The acceleration by the handle's acceleration and the external wrench alone.
-  SPRING_WORKBENCH_INLINE NodeStrains by_forcing(const HandleMotions& forcing, const ModalDecomposition& modes) const {
-    const motion::BodyFrameMotion<math::Pack>& handle = forcing.of_H;
+  SPRING_WORKBENCH_INLINE NodeStrains by_forcing(const HandleStates& forcing, const ModalDecomposition& modes) const {
+    const motion::BodyFrameRates<math::Pack>& handle = forcing.of_H;
     const Wrench& load = body_.load();
     const auto force = math::transposed(handle.R_WB, math::vec3(load.force)),
                moment = math::transposed(handle.R_WB, math::vec3(load.moment));
@@ -51,7 +51,7 @@ class HeldBodyEquation {
 
   /// Squared size of the rounding errors of a state over those of 1. Couplings add theirs: their strains are
   /// differences of positions as far from the origin as their frames, and the step responds to a part of them.
-  double squared_rounding(const HandleMotions& forcing, const ModalDecomposition& modes, double h, const Strain& q,
+  double squared_rounding(const HandleStates& forcing, const ModalDecomposition& modes, double h, const Strain& q,
                           const Strain& q_dot) const {
     const double felt = forcing.relative_motions.distance * std::min(1.0, modes.fastest * h * modes.fastest * h);
     return modes.mass.dot(rod::StrainVector(q.cwiseAbs2() + h * h * q_dot.cwiseAbs2())) +

@@ -75,8 +75,7 @@ rod::TwistJacobian HeldBody::object_jacobian(double t, const rod::StrainVector& 
   return J;
 }
 
-rod::StrainVector HeldBody::project_twist(const HandleMotion& h, const rod::StrainVector& q,
-                                          const Twist& V_WO_W) const {
+rod::StrainVector HeldBody::project_twist(const HandleState& h, const rod::StrainVector& q, const Twist& V_WO_W) const {
   if (size() == 0) return rod::StrainVector::Zero(0);
   const motion::MotionState carried = object(h, {q, rod::StrainVector::Zero(size())});
   const Kinematics k = kinematics(h.t, q);
@@ -90,7 +89,7 @@ rod::StrainVector HeldBody::project_twist(const HandleMotion& h, const rod::Stra
   return M.llt().solve(p);
 }
 
-motion::MotionState HeldBody::object(const HandleMotion& h, const StrainState& state,
+motion::MotionState HeldBody::object(const HandleState& h, const StrainState& state,
                                      const rod::StrainVector* q_ddot) const {
   double q[rod::max_strain_coordinates], rate[rod::max_strain_coordinates], acceleration[rod::max_strain_coordinates]{};
   coordinates_.scatter(state.q.data(), q);

@@ -11,13 +11,13 @@
 #include "spring_workbench/math/side_by_side.h"
 
 namespace spring_workbench::dynamics {
-StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                  StrainState& state) {
-  const HandleMotion end = body.motion_at(handle, t + h);
-  const rod::StrainVector a_begin = body.acceleration(body.motion_at(handle, t), state.q, state.q_dot);
+  const HandleState end = body.state_at(handle, t + h);
+  const rod::StrainVector a_begin = body.acceleration(body.state_at(handle, t), state.q, state.q_dot);
   StrainState next = state;
   rod::StrainVector a = body.acceleration(end, next.q, next.q_dot);
-  const LinearisedMotion& motion = last_.emplace(body, end, body.motion_at(handle, t + h + math::Pack{}), next, a);
+  const LinearisedMotion& motion = last_.emplace(body, end, body.state_at(handle, t + h + math::Pack{}), next, a);
   const math::ImplicitMatrix matrix = motion.implicit(h);
   double last_change = 0.0, first_change = 0.0;
   bool converged = false;
@@ -48,7 +48,7 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
   return {h * error_v - left_q, 0.0, error_v, converged};
 }
 
-void ImplicitEuler::propagate_deviation(const HeldBody&, const motion::FrameMotion&, double, double h,
+void ImplicitEuler::propagate_deviation(const HeldBody&, const motion::Trajectory&, double, double h,
                                         const StrainState&, const StrainState&, StrainState& deviation) {
   deviation.q_dot = last_->implicit(h).solve(last_->M * deviation.q_dot - h * (last_->K * deviation.q));
   deviation.q += h * deviation.q_dot;
@@ -58,24 +58,24 @@ namespace {
 
 /// Steps side by side from the same state at `t`, one or two. Returns the motion about that state.
 template <int n, int columns>
-LinearisedMotion rodas_steps(const HeldBody& body, const motion::FrameMotion& handle, double t,
+LinearisedMotion rodas_steps(const HeldBody& body, const motion::Trajectory& handle, double t,
                              const Eigen::Matrix<double, 1, columns>& h, Eigen::Matrix<double, n, columns>& q,
                              Eigen::Matrix<double, n, columns>& v) {
   using Column = Eigen::Matrix<double, n, 1>;
   using Columns = Eigen::Matrix<double, n, columns>;
   const double dt = time_difference * h[0];
-  const auto a = accelerations(body, body.motion_at(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
+  const auto a = accelerations(body, body.state_at(handle, t + dt * math::Pack{0.0, 1.0, 2.0, 2.0}),
                                math::side_by_side<n, math::pack_size>(q), math::side_by_side<n, math::pack_size>(v));
   Column by_time;
   for (int i = 0; i < n; ++i) by_time[i] = (-3.0 * a(i, 0) + 4.0 * a(i, 1) - a(i, 2)) / (2.0 * dt);
-  const LinearisedMotion motion(body, body.motion_at(handle, t), body.motion_at(handle, t + math::Pack{}),
+  const LinearisedMotion motion(body, body.state_at(handle, t), body.state_at(handle, t + math::Pack{}),
                                 {q.col(0), v.col(0)}, a.col(0));
   const math::ImplicitMatrix first = motion.implicit(math::Rodas::gamma * h[0]),
                              last = motion.implicit(math::Rodas::gamma * h[columns - 1]);
   const auto acceleration = [&](double c, const Columns& q_c, const Columns& v_c) {
     if (c == 0.0) return math::side_by_side<n, columns>(a);
     const double longer = h[0], shorter = h[columns - 1];
-    return accelerations(body, body.motion_at(handle, t + c * math::Pack{longer, shorter, shorter, shorter}), q_c, v_c);
+    return accelerations(body, body.state_at(handle, t + c * math::Pack{longer, shorter, shorter, shorter}), q_c, v_c);
   };
   const auto solve = [&](const Columns& b) {
     Columns x;
@@ -88,7 +88,7 @@ LinearisedMotion rodas_steps(const HeldBody& body, const motion::FrameMotion& ha
 
 }  // namespace
 
-StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+StepEstimate Rosenbrock::step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                               StrainState& state) {
   return math::by_size(body.size(), [&](auto size) -> StepEstimate {
     constexpr int n = decltype(size)::value;
@@ -105,7 +105,7 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
 }
 
 /// By the linear motion about the middle of the step.
-void Rosenbrock::propagate_deviation(const HeldBody& body, const motion::FrameMotion&, double, double h,
+void Rosenbrock::propagate_deviation(const HeldBody& body, const motion::Trajectory&, double, double h,
                                      const StrainState&, const StrainState&, StrainState& deviation) {
   math::by_size(body.size(), [&](auto size) {
     using Column = Eigen::Matrix<double, decltype(size)::value, 1>;
@@ -118,7 +118,7 @@ void Rosenbrock::propagate_deviation(const HeldBody& body, const motion::FrameMo
 }
 
 /// The deviations under generalised forces of 1, one per column.
-Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleMotion& handle, double h,
+Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleState& handle, double h,
                                           const StrainState& state) {
   return math::by_size(body.size(), [&](auto size) -> Response {
     using Columns = Eigen::Matrix<double, decltype(size)::value, decltype(size)::value>;

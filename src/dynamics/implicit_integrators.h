@@ -13,9 +13,9 @@ class ImplicitEuler final : public Integrator {
   int order() const override { return 1; }
   bool stiffly_stable() const override { return true; }
   Energy energy() const override { return Energy::dissipated; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override;
-  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  void propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
 
  private:
@@ -30,11 +30,11 @@ class Rosenbrock final : public Integrator {
   int order() const override { return 4; }
   bool stiffly_stable() const override { return true; }
   Energy energy() const override { return Energy::conserved; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override;
-  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  void propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
-  Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state) override;
+  Response response(const HeldBody& body, const HandleState& handle, double h, const StrainState& state) override;
 
  private:
   std::optional<LinearisedMotion> last_;  ///< of the last step

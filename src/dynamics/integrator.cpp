@@ -64,14 +64,14 @@ IntegratorKind register_integrator(const std::string& name, MakeIntegrator make)
   return static_cast<IntegratorKind>(names.size() - 1);
 }
 
-void Integrator::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+void Integrator::propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                      const StrainState& begin, const StrainState& end, StrainState& deviation) {
   StrainState other{begin.q + deviation.q, begin.q_dot + deviation.q_dot};
   step(body, handle, t, h, other);
   deviation = {other.q - end.q, other.q_dot - end.q_dot};
 }
 
-Integrator::Response Integrator::response(const HeldBody& body, const HandleMotion& handle, double h,
+Integrator::Response Integrator::response(const HeldBody& body, const HandleState& handle, double h,
                                           const StrainState& state) {
   Response r;
   const rod::StrainMatrix unit = rod::StrainMatrix::Identity(body.size(), body.size());
@@ -80,20 +80,20 @@ Integrator::Response Integrator::response(const HeldBody& body, const HandleMoti
   return r;
 }
 
-StepEstimate SemiImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+StepEstimate SemiImplicitEuler::step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                      StrainState& state) {
-  const rod::StrainVector a = body.acceleration(body.motion_at(handle, t), state.q, state.q_dot);
+  const rod::StrainVector a = body.acceleration(body.state_at(handle, t), state.q, state.q_dot);
   state.q_dot += h * a;
   state.q += h * state.q_dot;
-  const rod::StrainVector a_end = body.acceleration(body.motion_at(handle, t + h), state.q, state.q_dot);
+  const rod::StrainVector a_end = body.acceleration(body.state_at(handle, t + h), state.q, state.q_dot);
   // h² a against h² (2 a + a_end) / 6, and h a against h (a + a_end) / 2.
   return {h * h / 6.0 * (4.0 * a - a_end), 0.0, 0.5 * h * (a - a_end)};
 }
 
-void SemiImplicitEuler::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+void SemiImplicitEuler::propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                             const StrainState& begin, const StrainState& end, StrainState& deviation) {
   const rod::StrainVector q = begin.q + deviation.q, q_dot = begin.q_dot + deviation.q_dot;
-  deviation.q_dot = q_dot + h * body.acceleration(body.motion_at(handle, t), q, q_dot) - end.q_dot;
+  deviation.q_dot = q_dot + h * body.acceleration(body.state_at(handle, t), q, q_dot) - end.q_dot;
   deviation.q = q + h * (end.q_dot + deviation.q_dot) - end.q;
 }
 
@@ -102,12 +102,12 @@ namespace {
 using Point = math::CurvePoint<rod::StrainVector>;
 
 /// The state and the acceleration that belongs to it.
-Point point(const HeldBody& body, const HandleMotion& handle, const StrainState& state) {
+Point point(const HeldBody& body, const HandleState& handle, const StrainState& state) {
   return {state.q, state.q_dot, body.acceleration(handle, state.q, state.q_dot)};
 }
 
 /// The state after a step by the classical method.
-StrainState classical_step(const HeldBody& body, const HandleMotion& middle, const HandleMotion& end, double h,
+StrainState classical_step(const HeldBody& body, const HandleState& middle, const HandleState& end, double h,
                            const Point& begin) {
   const auto& [q, v, a] = begin;
   const rod::StrainVector v2 = v + 0.5 * h * a;
@@ -120,12 +120,12 @@ StrainState classical_step(const HeldBody& body, const HandleMotion& middle, con
 }
 
 /// Estimates the error of a step of order up to four from the defect of the quintic at a quarter and three quarters.
-StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const Point& begin,
+StepEstimate end_error(const HeldBody& body, const motion::Trajectory& handle, double t, double h, const Point& begin,
                        const Point& end) {
   // The quintic's second derivative by an end that is off by (e, h ė = g): (H'' e + G'' g) / h², H and G its shapes.
   const auto defect = [&](double u) {
     const Point p = math::quintic(begin, end, h, u);
-    return rod::StrainVector(h * h * (p.x_ddot - body.acceleration(body.motion_at(handle, t + u * h), p.x, p.x_dot)));
+    return rod::StrainVector(h * h * (p.x_ddot - body.acceleration(body.state_at(handle, t + u * h), p.x, p.x_dot)));
   };
   const rod::StrainVector d1 = defect(0.25), d3 = defect(0.75);
   const rod::StrainVector g = (d1 + d3) / 2.25;  // H''(¼) = −H''(¾) = 5.625, G''(¼) = −1.6875, G''(¾) = 3.9375
@@ -134,19 +134,19 @@ StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, 
 
 }  // namespace
 
-StepEstimate RungeKutta4::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+StepEstimate RungeKutta4::step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                StrainState& state) {
-  const Point begin = point(body, body.motion_at(handle, t), state);
-  const HandleMotion end = body.motion_at(handle, t + h);
-  state = classical_step(body, body.motion_at(handle, t + 0.5 * h), end, h, begin);
+  const Point begin = point(body, body.state_at(handle, t), state);
+  const HandleState end = body.state_at(handle, t + h);
+  state = classical_step(body, body.state_at(handle, t + 0.5 * h), end, h, begin);
   return end_error(body, handle, t, h, begin, point(body, end, state));
 }
 
-void RungeKutta4::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+void RungeKutta4::propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                       const StrainState& begin, const StrainState& end, StrainState& deviation) {
   const StrainState other{begin.q + deviation.q, begin.q_dot + deviation.q_dot};
-  const auto [q, q_dot] = classical_step(body, body.motion_at(handle, t + 0.5 * h), body.motion_at(handle, t + h), h,
-                                         point(body, body.motion_at(handle, t), other));
+  const auto [q, q_dot] = classical_step(body, body.state_at(handle, t + 0.5 * h), body.state_at(handle, t + h), h,
+                                         point(body, body.state_at(handle, t), other));
   deviation = {q - end.q, q_dot - end.q_dot};
 }
 

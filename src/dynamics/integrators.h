@@ -8,9 +8,9 @@ namespace spring_workbench::dynamics {
 class SemiImplicitEuler final : public Integrator {
  public:
   int order() const override { return 1; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override;
-  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  void propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
 };
 
@@ -18,9 +18,9 @@ class SemiImplicitEuler final : public Integrator {
 class RungeKutta4 final : public Integrator {
  public:
   int order() const override { return 4; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override;
-  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  void propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
 };
 

@@ -9,14 +9,14 @@
 #include "spring_workbench/rod/difference_steps.h"
 
 namespace spring_workbench::dynamics {
-LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleMotion& handle, const rod::StrainVector& q)
+LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleState& handle, const rod::StrainVector& q)
     : M(body.mass_matrix(handle.t, q)) {
   const HeldBody::Springs springs = body.springs(handle, q);
   K = springs.K;
   D = springs.D;
 }
 
-LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleMotion& handle, const HandleMotions& moment,
+LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleState& handle, const HandleStates& moment,
                                    const StrainState& state, const rod::StrainVector& q_ddot)
     : LinearisedMotion(body, handle, state.q) {
   const rod::StrainVector dq = rod::difference_steps(strain_difference * body.units(), state.q),

@@ -12,7 +12,7 @@ namespace spring_workbench::dynamics {
 namespace {
 
 /// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences (exact for springs).
-rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleMotion& handle, const rod::StrainVector& q) {
+rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleState& handle, const rod::StrainVector& q) {
   rod::StrainMatrix stiffness(q.size(), q.size());
   const rod::StrainVector rest = 0.0 * q, moved = rod::difference_steps(frozen_difference * body.units(), q);
   for (int j = 0; j < q.size(); ++j) {
@@ -28,7 +28,7 @@ rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleMotion& ha
 /// Sets the accelerations by a wrench and by the handle's.
 void set_forces(const HeldBody& body, double t, const rod::StrainVector& q, ModalDecomposition& part) {
   part.by_wrench = part.inverse_mass * body.object_jacobian(t, q).transpose();
-  HandleMotion at_origin;
+  HandleState at_origin;
   at_origin.t = t;
   const RigidTransform X_HO = body.object(at_origin, {q, rod::StrainVector::Zero(q.size())}).X;
   Matrix6d inertia = Matrix6d::Zero();  // of the object; columns: motions of the handle
@@ -40,7 +40,7 @@ void set_forces(const HeldBody& body, double t, const rod::StrainVector& q, Moda
 
 }  // namespace
 
-ModalDecomposition modal_decomposition(const HeldBody& body, const HandleMotion& handle, const rod::StrainVector& q) {
+ModalDecomposition modal_decomposition(const HeldBody& body, const HandleState& handle, const rod::StrainVector& q) {
   const int n = body.size(), count = 2 * n;
   ModalDecomposition part;
   part.q_reference = q;

@@ -32,6 +32,6 @@ struct ModalDecomposition {
 };
 
 /// Computes it about the strain `q`, under the handle's present acceleration and the present loads.
-ModalDecomposition modal_decomposition(const HeldBody& body, const HandleMotion& handle, const rod::StrainVector& q);
+ModalDecomposition modal_decomposition(const HeldBody& body, const HandleState& handle, const rod::StrainVector& q);
 
 }  // namespace spring_workbench::dynamics

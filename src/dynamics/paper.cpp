@@ -45,11 +45,11 @@ class SpringDampers {
 
 /// The object's motion if the fork were rigid.
 struct Carried {
-  HandleMotion handle;
+  HandleState handle;
   motion::MotionState object;
   Matrix3d I_W;
 
-  Carried(const HeldBody& body, const motion::FrameMotion& motion, double t) : handle(body.motion_at(motion, t)) {
+  Carried(const HeldBody& body, const motion::Trajectory& motion, double t) : handle(body.state_at(motion, t)) {
     const StrainState straight = body.zero_state();
     object = body.object(handle, straight, &straight.q);
     I_W = object.X.linear() * body.body().inertia_O * object.X.linear().transpose();
@@ -70,7 +70,7 @@ struct Carried {
 /// back. The last one that touches is used, so that the object reaches the contact, which then carries its load.
 rod::StrainVector cut_back(const HeldBody& body, const Carried& begin, const Carried& end, const StrainState& state,
                            const rod::StrainVector& target) {
-  const auto pose = [&](const HandleMotion& handle, const rod::StrainVector& q) {
+  const auto pose = [&](const HandleState& handle, const rod::StrainVector& q) {
     return body.object(handle, {q, rod::StrainVector::Zero(q.size())}).X;
   };
   const RigidTransform here = pose(begin.handle, state.q);
@@ -87,7 +87,7 @@ rod::StrainVector cut_back(const HeldBody& body, const Carried& begin, const Car
 
 }  // namespace
 
-StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+StepEstimate Paper::step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                          StrainState& state) {
   if (body.coupled()) return shared_.step(body, handle, t, h, state);
   const Carried begin(body, handle, t), end(body, handle, t + h);
@@ -134,14 +134,14 @@ StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle
   return estimate;
 }
 
-void Paper::propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+void Paper::propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                 const StrainState& begin, const StrainState& end, StrainState& deviation) {
   if (body.coupled()) return shared_.propagate_deviation(body, handle, t, h, begin, end, deviation);
   const SpringDampers dampers(body, h);  // their target does not depend on the state
   for (int i = 0; i < body.size(); ++i) dampers.of(i).step.carry(deviation.q[i], deviation.q_dot[i]);
 }
 
-Integrator::Response Paper::response(const HeldBody& body, const HandleMotion& handle, double h,
+Integrator::Response Paper::response(const HeldBody& body, const HandleState& handle, double h,
                                      const StrainState& state) {
   if (body.coupled()) return shared_.response(body, handle, h, state);
   const SpringDampers dampers(body, h);

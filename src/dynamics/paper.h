@@ -21,11 +21,11 @@ class Paper final : public Integrator {
   int order() const override { return 1; }
   bool stiffly_stable() const override { return true; }
   Energy energy() const override { return Energy::not_applicable; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override;
-  void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  void propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                            const StrainState& begin, const StrainState& end, StrainState& deviation) override;
-  Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state) override;
+  Response response(const HeldBody& body, const HandleState& handle, double h, const StrainState& state) override;
   void archive(math::StateArchive& state) override { state(version_, t_, from_, target_, shared_); }
 
  private:

@@ -40,7 +40,7 @@ std::vector<int> read_styluses(const YAML::Node& node, const std::string& where,
   const std::vector<int> styluses = read_stations(node, where, "stylus");
   for (const int station : styluses) {
     if (free.erase(station) == 0)
-      validation::refuse(where, "stylus", std::to_string(station), "distinct stations of the parameter stations");
+      validation::refuse(where, "stylus", std::to_string(station), "distinct stations listed in ~stations");
   }
   return styluses;
 }

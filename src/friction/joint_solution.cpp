@@ -119,14 +119,13 @@ bool JointSolution::factorize(double penalty) {
 
 struct JointSolution::Alternation {
   double penalty = 1.0;
-  VectorXd w, z;
+  VectorXd w, z, load;  ///< load: by the penalty
 };
 
 VectorXd JointSolution::direction(const Alternation& at, VectorXd& reduced) const {
   VectorXd right_side = VectorXd::Zero(contacts_->size());
   each([&](const auto& c, Index i) {
-    const Vector3d load = into_cone(-at.w.segment<3>(i), c.friction);  // by the penalty
-    Vector3d target = at.z.template segment<3>(i) + load - c.motion;
+    Vector3d target = at.z.template segment<3>(i) + at.load.template segment<3>(i) - c.motion;
     target[0] -= shift(at.z.template segment<3>(i), c.friction);
     contacts_->apply(c, at.penalty * target, right_side);
   });
@@ -163,7 +162,7 @@ double JointSolution::target_residual(int alternation) const {
 void JointSolution::alternate() {
   Alternation at;
   at.w.setZero(best_.size());
-  at.z = at.w;
+  at.z = at.load = at.w;
   each([&](const auto& c, Index i) {
     Vector3d u = contacts_->motion(c, contacts_->reduced());
     u[0] += shift(u, c.friction);
@@ -176,7 +175,8 @@ void JointSolution::alternate() {
   for (int k = 0; k < max_alternations_unsolved && result_->residual > target_residual(k); ++k) {
     ++result_->iterations;
     each([&](const auto& c, Index i) {
-      at.z.segment<3>(i) = at.w.segment<3>(i) + into_cone(-at.w.segment<3>(i), c.friction);
+      at.load.segment<3>(i) = into_cone(-at.w.segment<3>(i), c.friction);
+      at.z.segment<3>(i) = at.w.segment<3>(i) + at.load.segment<3>(i);
     });
     const VectorXd step = direction(at, reduced);
     const double size = step.norm();

@@ -49,7 +49,7 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
   if (simulation_.empty() && (change == nullptr || change->state == simulation::SimulationState())) return;
   if (simulation_.empty()) {
     scene_ = change->scene;
-    settings_.styluses = change->state.styluses();
+    settings_.styluses = change->state.hands();
     simulation_.emplace_back(load_scene_(scene_), settings_);
     simulation_.front().restore(change->state);
     next_ = entry.index + 1;

@@ -51,7 +51,7 @@ MotionSegment MotionSegment::of_frame(const RigidTransform& X_BC) const {
   return moved;
 }
 
-BodyFrameMotion<math::Pack> MotionSegment::at_frame(const BodyFrameMotion<math::Pack>& f) const {
+BodyFrameRates<math::Pack> MotionSegment::at_frame(const BodyFrameRates<math::Pack>& f) const {
   const math::Mat3x3<double> R = math::mat3x3(X_BC_.linear());
   const math::Vec3<double> p = math::vec3(X_BC_.translation());
   const math::Vec3<math::Pack> a = f.a_B + math::cross(f.alpha_B, p) + math::cross(f.w_B, math::cross(f.w_B, p));
@@ -74,8 +74,8 @@ BodyRateState MotionSegment::body_rate_state(double t) const {
   return m;
 }
 
-BodyFrameMotion<math::Pack> MotionSegment::body_frame_motion(const math::Pack& t, double gravity) const {
-  const BodyFrameMotion<math::Pack> of_B = of_samples(t, gravity);
+BodyFrameRates<math::Pack> MotionSegment::body_frame_rates(const math::Pack& t, double gravity) const {
+  const BodyFrameRates<math::Pack> of_B = of_samples(t, gravity);
   return has_offset_ ? at_frame(of_B) : of_B;
 }
 
@@ -97,11 +97,11 @@ BodyRateState MotionSegment::of_samples(double t) const {
   return m;
 }
 
-SPRING_WORKBENCH_WIDE BodyFrameMotion<math::Pack> MotionSegment::of_samples(const math::Pack& t, double gravity) const {
+SPRING_WORKBENCH_WIDE BodyFrameRates<math::Pack> MotionSegment::of_samples(const math::Pack& t, double gravity) const {
   const math::Mat3x3<double> R_a = math::mat3x3(X_a_.linear());
   const math::Vec3<double> up = gravity * math::Vec3<double>{R_a.x.z, R_a.y.z, R_a.z.z};
   const math::Vec3<math::Pack> zero = math::zero<math::Pack>();
-  BodyFrameMotion<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero, zero + up};
+  BodyFrameRates<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero, zero + up};
   if (!moving_) return f;
   const double per_second = 1.0 / (end_ - begin_);
   const math::Pack u = (t - begin_) * per_second;

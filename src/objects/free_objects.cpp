@@ -113,7 +113,7 @@ bool FreeObjects::carry(bodies::SteppedBody& stepped, std::size_t object, double
   note(outcome, counts);
   take_state(object, stepped.object());
   states_[object].in_contact = !objects_[object].rows.empty();
-  contacts_.note(object, states_[object], outcome.rows, h);
+  contacts_.note(object, states_, outcome.rows, h);
   return true;
 }
 

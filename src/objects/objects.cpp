@@ -175,7 +175,7 @@ bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::si
     states_[o].in_contact = !rows[0].empty();
     objects_[o].rows = rows[i];
     objects_[o].slow_since = now + h;
-    contacts_.note(o, states_[o], reported[i], h);
+    contacts_.note(o, states_, reported[i], h);
     in_contact_.erase(o);
     stepped_objects.insert(o);
   }
@@ -216,7 +216,7 @@ void Objects::note_world_contacts(double h) {
   for (auto& [object, of_object] : rows) {
     if (of_object.empty() && states_[object].asleep) continue;
     state(object).in_contact = !of_object.empty();
-    contacts_.note(object, states_[object], of_object, h);
+    contacts_.note(object, states_, of_object, h);
     if (of_object.empty()) {
       in_contact_.erase(object);
     } else {

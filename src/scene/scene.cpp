@@ -143,8 +143,8 @@ class SceneLoader {
 
 }  // namespace
 
-Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots, const std::string& name) {
-  const std::string path = resolve_file(path_or_uri, "", roots, "", name);
+Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots, const std::string& key) {
+  const std::string path = resolve_file(path_or_uri, "", roots, "", key);
   return SceneLoader(path, roots).load();
 }
 

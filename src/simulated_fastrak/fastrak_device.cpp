@@ -38,15 +38,15 @@ bool read_arguments(const std::string& text, std::vector<double>& numbers) {
 
 }  // namespace
 
-PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples) {
+PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples, const std::string& name) {
   for (const motion::StylusSample& sample : samples) {
     if (!(sample.X.translation().cwiseAbs().maxCoeff() < farthest_played)) {
-      validation::refuse("motion", "position at " + std::to_string(sample.t) + " s",
+      validation::refuse(name, "position at " + std::to_string(sample.t) + " s",
                          "coordinates between -9.99 and 9.99 m");
     }
     if (samples_.empty() || sample.t > samples_.back().t) samples_.push_back(sample);
   }
-  if (samples_.empty()) validation::refuse("", "motion", "at least one sample");
+  if (samples_.empty()) validation::refuse("", name, "at least one sample");
 }
 
 motion::StylusSample PlayedMotion::at(double t) const {

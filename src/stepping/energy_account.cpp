@@ -9,7 +9,7 @@ namespace spring_workbench::stepping {
 namespace {
 
 /// Returns the same forcing with the frames of the couplings at rest in the frame of the handle.
-dynamics::HandleMotion with_frames_at_rest(dynamics::HandleMotion handle) {
+dynamics::HandleState with_frames_at_rest(dynamics::HandleState handle) {
   for (std::size_t i = 0; i < handle.relative_motions.count; ++i) {
     handle.relative_motions.in_frame(i).v_AB = handle.relative_motions.in_frame(i).w_AB = math::zero<double>();
   }
@@ -18,7 +18,7 @@ dynamics::HandleMotion with_frames_at_rest(dynamics::HandleMotion handle) {
 
 }  // namespace
 
-Difference difference(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle,
+Difference difference(const dynamics::HeldBody& body, const dynamics::HandleState& handle,
                       const dynamics::StrainState& state, const dynamics::StrainState& other) {
   // The state last: its tip is the one asked for next.
   const motion::MotionState b = body.object(handle, other), a = body.object(handle, state);
@@ -36,7 +36,7 @@ Difference difference(const dynamics::HeldBody& body, const dynamics::HandleMoti
           std::max(moving + std::abs(found), weight * body.shape().length())};
 }
 
-double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+double energy_added(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     const dynamics::StrainState& begin, const dynamics::StrainState& end) {
   constexpr double inner = 0.27639320225002103;  // (1 - 1/sqrt(5)) / 2
   constexpr math::Pack nodes{0.0, inner, 1.0 - inner, 1.0}, weights{1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0};
@@ -57,11 +57,11 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
   };
   curve(false);
   if (!possible(1) || !possible(2)) curve(true);  // a jerk: no motion of the fork; the straight one
-  const dynamics::EnergyBalance balance = body.energy_balance(body.motion_at(handle, t + nodes * h), q, q_dot);
+  const dynamics::EnergyBalance balance = body.energy_balance(body.state_at(handle, t + nodes * h), q, q_dot);
   return balance.energy[3] - balance.energy[0] - h * math::sum(weights * balance.power);
 }
 
-double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+double energy_added(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     const dynamics::StrainState& begin, const dynamics::StrainState& end,
                     const dynamics::Integrator& integrator) {
   const std::optional<dynamics::StepWork> step = integrator.work(body);
@@ -71,21 +71,20 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
     q[i] = begin.q[i] + math::Pack{};
     q_dot[i] = begin.q_dot[i] + math::Pack{};
   }
-  const dynamics::EnergyBalance before = body.energy_balance(body.motion_at(handle, t + math::Pack{}), q, q_dot);
+  const dynamics::EnergyBalance before = body.energy_balance(body.state_at(handle, t + math::Pack{}), q, q_dot);
   return step->energy_at_end - before.energy[0] - step->work;
 }
 
-dynamics::HandleMotion over_step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t,
-                                 double h) {
-  dynamics::HandleMotion over = body.motion_at(handle, t + h);
-  const dynamics::HandleMotion middle = body.motion_at(handle, t + 0.5 * h);
+dynamics::HandleState over_step(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h) {
+  dynamics::HandleState over = body.state_at(handle, t + h);
+  const dynamics::HandleState middle = body.state_at(handle, t + 0.5 * h);
   over.w_WH_H = middle.w_WH_H;
   over.alpha_WH_H = middle.alpha_WH_H;
   over.proper_acceleration_H = middle.proper_acceleration_H;
   return over;
 }
 
-EnergyGain::EnergyGain(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle,
+EnergyGain::EnergyGain(const dynamics::HeldBody& body, const dynamics::HandleState& handle,
                        const dynamics::StrainState& begin)
     : body_(body), still_(with_frames_at_rest(handle)), q_(begin.q) {
   const dynamics::StrainState at_rest{begin.q, 0.0 * begin.q_dot};
@@ -106,7 +105,7 @@ double EnergyGain::operator()(const dynamics::StrainState& end) const {
 
 double EnergyGain::energy(const dynamics::StrainState& state) const {
   const double t = still_.t;
-  dynamics::HandleMotion origin;
+  dynamics::HandleState origin;
   origin.t = t;
   return 0.5 * state.q_dot.dot(body_.mass_matrix(t, state.q) * state.q_dot) + body_.elastic_energy(t, state) +
          body_.read_couplings(still_, state).springs.energy - force_.dot(body_.object(origin, state).X.translation());

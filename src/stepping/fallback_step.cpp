@@ -10,9 +10,9 @@
 
 namespace spring_workbench::stepping {
 
-void fallback_step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+void fallback_step(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                    dynamics::StrainState& state) {
-  const dynamics::HandleMotion end = body.motion_at(handle, t + h);
+  const dynamics::HandleState end = body.state_at(handle, t + h);
   const dynamics::StrainState begin = state;
   const dynamics::LinearisedMotion motion(body, end, begin.q);
   const math::ImplicitMatrix matrix = motion.implicit(h);

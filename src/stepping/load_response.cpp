@@ -7,7 +7,7 @@
 namespace spring_workbench::stepping {
 
 dynamics::Integrator::Response LoadResponse::response(dynamics::Integrator& integrator, const dynamics::HeldBody& body,
-                                                      const dynamics::HandleMotion& handle, double h,
+                                                      const dynamics::HandleState& handle, double h,
                                                       const dynamics::StrainState& state) const {
   dynamics::Integrator::Response r = integrator.response(body, handle, h, state);
   const rod::StrainMatrix symmetric = 0.5 * (r.q + r.q.transpose());
@@ -28,7 +28,7 @@ dynamics::Integrator::Response LoadResponse::response(dynamics::Integrator& inte
 }
 
 void LoadResponse::correct(dynamics::Integrator& integrator, const dynamics::HeldBody& body,
-                           const dynamics::HandleMotion& handle, double h, const rod::StrainVector& change,
+                           const dynamics::HandleState& handle, double h, const rod::StrainVector& change,
                            dynamics::StrainState& state) {
   const dynamics::Integrator::Response response_now = response(integrator, body, handle, h, state);
   dynamics::StrainState next{state.q + response_now.q * change, state.q_dot + response_now.q_dot * change};

@@ -31,7 +31,7 @@ rod::StrainVector range_slope(const dynamics::HeldBody& body, double t, const ro
   return g;
 }
 
-void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle, double h,
+void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleState& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end) {
   const double t = handle.t;
   const auto used = [&](const rod::StrainVector& q) { return range_used(body, t, q); };
@@ -84,7 +84,7 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleMotion&
   if (excess > 0.0 && moving > 0.0) end.q_dot *= std::sqrt(std::max(0.0, 1.0 - excess / moving));
 }
 
-double slow_down(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+double slow_down(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                  const dynamics::StrainState& begin, dynamics::StrainState& end) {
   const double added = energy_added(body, handle, t, h, begin, end);
   if (!(added > 0.0) || body.loaded() || body.coupled()) return added;

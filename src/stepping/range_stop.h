@@ -11,7 +11,7 @@ namespace spring_workbench::stepping {
 /// stops. The state has no more energy than at the begin of the step, beyond the work of weight, handle and contact:
 /// the rates lose what the strain has gained and, if a strain has too much energy even at rest, it is as far on the
 /// straight way from `begin` to `end` as range and energy allow.
-void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle, double h,
+void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleState& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end);
 
 /// Derivative of the used fraction of the rod's range by the strain, at the strain `q`.
@@ -21,7 +21,7 @@ rod::StrainVector range_slope(const dynamics::HeldBody& body, double t, const ro
 /// the energy that it has gained beyond the work of hand, weight and dampers, as far as its kinetic energy allows.
 /// Returns energy_added() of the result [J]. Nothing is removed while contact or other tools pull, whose work over a
 /// step is less well known.
-double slow_down(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+double slow_down(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                  const dynamics::StrainState& begin, dynamics::StrainState& end);
 
 }  // namespace spring_workbench::stepping

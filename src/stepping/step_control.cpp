@@ -34,7 +34,7 @@ class ErrorLength {
 };
 
 /// From rates to the strain that they swing to, mode by mode, and the frequency of the stiffest mode.
-void set_modes(const dynamics::HeldBody& body, const dynamics::HandleMotion& handle, const rod::StrainVector& q,
+void set_modes(const dynamics::HeldBody& body, const dynamics::HandleState& handle, const rod::StrainVector& q,
                StepControl::Memory& memory) {
   const rod::StrainMatrix M = body.mass_matrix(handle.t, q);
   const math::SymmetricModes modes = math::symmetric_modes(body.springs(handle, q).K, M);
@@ -67,7 +67,7 @@ void forget_error(const dynamics::StrainState& state, StepControl::Memory& memor
 
 struct StepControl::Span {
   const dynamics::HeldBody& body;
-  const motion::FrameMotion& handle;
+  const motion::Trajectory& handle;
   Memory& memory;
   ControlledStep report;
 };
@@ -93,7 +93,7 @@ void StepControl::archive(math::StateArchive& state) {
   if (companion_ != nullptr) state(*companion_);
 }
 
-ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t,
+ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t,
                                     double h, dynamics::StrainState& state, Memory& memory) const {
   Span span{body, handle, memory, {}};
   const Memory before = memory;
@@ -103,7 +103,7 @@ ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion
   if (error_bound_) begin_bound(body, t, next, memory);
   if (memory.version != body.version() || memory.t != t || memory.error.q.size() != body.size()) {
     if (memory.version != body.version() || memory.swing.rows() != body.size())
-      set_modes(body, body.motion_at(handle, t), next.q, memory);
+      set_modes(body, body.state_at(handle, t), next.q, memory);
     memory.error = body.zero_state();
     memory.next_h = h;
     memory.version = body.version();
@@ -136,7 +136,7 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   Tried tried{state};
   tried.estimate = integrator_->step(body, span.handle, t, h, tried.state);
   if (!tried.estimate.converged || !usable(tried.state)) return tried;
-  const dynamics::HandleMotion end = body.motion_at(span.handle, t + h);
+  const dynamics::HandleState end = body.state_at(span.handle, t + h);
   const dynamics::StrainState corrected{tried.state.q - tried.estimate.q_error,
                                         tried.state.q_dot - tried.estimate.q_dot_error};
   const Difference error = difference(body, end, tried.state, corrected);
@@ -163,7 +163,7 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
   double present = tried.energy;
   if (!tried.in_range) {
     stop_at_range(body, over_step(body, span.handle, t, h), h, state, next);
-    present = difference(body, body.motion_at(span.handle, t + h), next, next).present;
+    present = difference(body, body.state_at(span.handle, t + h), next, next).present;
     ++span.report.stops;
   }
   if (error_bound_) follow_error(span, t, h, tried, state);
@@ -217,7 +217,7 @@ void StepControl::end_bound(Span& span, double t, const dynamics::StrainState& s
   const dynamics::HeldBody& body = span.body;
   Memory& memory = span.memory;
   memory.end = state;
-  const dynamics::HandleMotion end = body.motion_at(span.handle, t);
+  const dynamics::HandleState end = body.state_at(span.handle, t);
   const RigidTransform as_should_be = body.object(end, memory.exact).X, as_is = body.object(end, state).X;
   const auto J = body.object_jacobian(t, state.q);
   const rod::StrainMatrix spread = memory.spread.topLeftCorner(body.size(), body.size());
@@ -254,7 +254,7 @@ bool StepControl::step_in_halves(Span& span, double t, double h, int level, bool
   const bool conserved = kind == dynamics::Integrator::Energy::conserved;
   double found = tried.solved && conserved ? tried.energy_error : 0.0;
   if (tried.solved && kind == dynamics::Integrator::Energy::dissipated) {
-    found = EnergyGain(span.body, span.body.motion_at(span.handle, t + h), state)(tried.state);
+    found = EnergyGain(span.body, span.body.state_at(span.handle, t + h), state)(tried.state);
   }
   bool good = tried.solved && found <= allowed;
   if (good) {

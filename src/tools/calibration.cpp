@@ -28,7 +28,7 @@ class UnitMassOnFork {
   /// Finds the equilibrium for these springs, starting from the last one.
   void settle(const rod::PerDof& k) {
     held_.set_springs(k, {1.0, 1.0, 1.0});
-    const dynamics::HandleMotion handle = held_.motion_at(motion::MotionSegment(X_WH_), 0.0);
+    const dynamics::HandleState handle = held_.state_at(motion::MotionSegment(X_WH_), 0.0);
     const auto force = [&](const rod::StrainVector& at) -> rod::StrainVector {
       return held_.mass_matrix(0.0, at) * held_.acceleration(handle, at, rod::StrainVector::Zero(at.size()));
     };

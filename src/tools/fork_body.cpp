@@ -38,9 +38,9 @@ void ForkBody::set_load(const Wrench& load_W) {
 
 RigidTransform ForkBody::hand_pose() const { return hand_.at(state_.t).X; }
 
-dynamics::HandleMotion ForkBody::handle() const {
+dynamics::HandleState ForkBody::handle() const {
   const motion::Proxy& proxy = state_.proxy;
-  return proxy.behind() ? held_.motion_at(proxy.motion(hand_, state_.t), state_.t) : held_.motion_at(hand_, state_.t);
+  return proxy.behind() ? held_.state_at(proxy.motion(hand_, state_.t), state_.t) : held_.state_at(hand_, state_.t);
 }
 
 motion::MotionState ForkBody::object() const {
@@ -55,7 +55,7 @@ motion::MotionState ForkBody::object() const {
 }
 
 motion::MotionState ForkBody::object_with_acceleration() const {
-  const dynamics::HandleMotion h = handle();
+  const dynamics::HandleState h = handle();
   if (held_.size() == 0) {
     const rod::StrainVector none(0);
     return held_.object(h, state_.strain, &none);

@@ -56,8 +56,8 @@ class ForkBody : public ToolHold {
   double length() const override { return held_.shape().length(); }
   double elastic_energy() const override;
 
-  dynamics::HandleMotion handle() const;  ///< the proxy handle at present
-  RigidTransform hand_pose() const;       ///< the handle in the hand
+  dynamics::HandleState handle() const;  ///< the proxy handle at present
+  RigidTransform hand_pose() const;      ///< the handle in the hand
   /// The object's motion at present, with acceleration.
   motion::MotionState object_with_acceleration() const;
 

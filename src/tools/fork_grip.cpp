@@ -30,7 +30,7 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
   if (present.size() == 0) return present;
   const rod::StrainVector mass = held_.mass_matrix(state_.t, present).diagonal();
   const Vector3d force_O = R_WO.transpose() * pull_W.force, moment_O = R_WO.transpose() * pull_W.moment;
-  const dynamics::HandleMotion at_origin = held_.motion_at(motion::MotionSegment(RigidTransform::Identity()), state_.t);
+  const dynamics::HandleState at_origin = held_.state_at(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const auto missing = [&](const rod::StrainVector& q) -> rod::StrainVector {
     const Matrix3d R_HO = held_.object(at_origin, {q, rod::StrainVector::Zero(q.size())}).X.linear();
     const Vector6d load = to_vector(Wrench{R_HO * force_O, R_HO * moment_O});
@@ -47,7 +47,7 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
 
 void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   state_.strain.q = strain_under(pull_W, X_WO.linear());
-  const dynamics::HandleMotion at_origin = held_.motion_at(motion::MotionSegment(RigidTransform::Identity()), state_.t);
+  const dynamics::HandleState at_origin = held_.state_at(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const RigidTransform X_HO = held_.object(at_origin, state_.strain).X;
   const RigidTransform X_HH = hand_pose().inverse() * X_WO * X_HO.inverse();
   take_hand(hand_.of_frame(normalised(X_HH)));
@@ -63,7 +63,7 @@ RigidTransform ForkBody::slip(double h, const motion::MotionState& object, const
   const Wrench pull_W{at_tip_W.force, at_tip_W.moment + lever.cross(at_tip_W.force)};
   const rod::StrainVector q = strain_under(pull_W, object.X.linear());
   state_.strain.q = q + std::exp(-h / return_time) * (state_.strain.q - q);
-  const dynamics::HandleMotion at_origin = held_.motion_at(motion::MotionSegment(RigidTransform::Identity()), state_.t);
+  const dynamics::HandleState at_origin = held_.state_at(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const RigidTransform X_HO = held_.object(at_origin, state_.strain).X;
   state_.t += h;
   state_.proxy = motion::Proxy();

@@ -21,7 +21,7 @@ class Counting : public dynamics::Integrator {
   static inline int steps = 0;
 
   int order() const override { return own_->order(); }
-  dynamics::StepEstimate step(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  dynamics::StepEstimate step(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                               dynamics::StrainState& state) override {
     ++steps;
     return own_->step(body, handle, t, h, state);

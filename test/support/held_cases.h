@@ -65,7 +65,7 @@ inline bool limited_by_stiffness(const std::string& integrator) {
 
 /// Position error of the object [m], and angle times the body's radius of gyration.
 inline double distance(const Case& c, double t, const dynamics::StrainState& a, const dynamics::StrainState& b) {
-  const dynamics::HandleMotion f = c.held.motion_at(c.hand, t);
+  const dynamics::HandleState f = c.held.state_at(c.hand, t);
   const RigidTransform A = c.held.object(f, a).X, B = c.held.object(f, b).X;
   return (A.translation() - B.translation()).norm() + 0.1 * math::log_so3(A.linear().transpose() * B.linear()).norm();
 }

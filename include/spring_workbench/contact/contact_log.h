@@ -18,14 +18,16 @@ ContactRow row_of(const rigid_bodies::WorldContact& contact, double h);
 /// Which objects touch which bodies, and since when: the source of `Simulation::contacts`.
 class ContactLog {
  public:
-  explicit ContactLog(const scene::Scene& scene) : scene_(scene) {}
+  explicit ContactLog(const scene::Scene& scene);
 
   /// Forgets all contacts, and prepares for this number of objects.
   void reset(std::size_t objects);
   /// Begins a step of `h` [s] of all objects: the impulses before it are that much older.
   void begin_step(double h);
-  /// Contacts of one object after a step of `h` [s]. An object without a step keeps its contacts.
-  void note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows, double h);
+  /// Contacts of one object after a step of `h` [s]; `states`: of all objects. An object without a step keeps its
+  /// contacts.
+  void note(std::size_t object, const std::vector<bodies::BodyState>& states, const std::vector<ContactRow>& rows,
+            double h);
   /// Copies to `object` the contacts that object `its` has in `from`, another scene's log, with bodies of this scene.
   void take(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
@@ -51,6 +53,7 @@ class ContactLog {
   std::vector<ContactState> all() const;
 
   const scene::Scene& scene_;
+  std::vector<std::size_t> object_of_;                      ///< object by index in the scene; valid for movable bodies
   std::vector<std::vector<ContactState>> touching_;         ///< by object: contacts after its last step
   std::set<std::size_t> with_contacts_;                     ///< objects that touch something
   std::map<std::size_t, std::vector<PastImpulse>> recent_;  ///< by object: those within the window of the forces

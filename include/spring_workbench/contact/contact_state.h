@@ -20,7 +20,7 @@ struct ContactState {
   /// This point's share of the normal force between the two bodies, as a mean over the last 20 ms, however long the
   /// steps are [N]. Once the contact has ended, the force is the share in its last step.
   double force = 0.0;
-  double slip_speed = 0.0;                     ///< speed of `object` along the surface [m/s]
+  double slip_speed = 0.0;                     ///< speed of `object` along `other`'s surface [m/s]
   ContactPhase phase = ContactPhase::started;  ///< phase of the contact
 
   /// Saves or restores all fields.

@@ -62,11 +62,11 @@ class Coupling {
 
 /// A coupling with the motion of its frame A.
 struct Attached {
-  const Coupling* coupling = nullptr;          ///< springs and dampers; never null when attached
-  const motion::FrameMotion* frame = nullptr;  ///< motion of A; never null when attached
+  const Coupling* coupling = nullptr;         ///< springs and dampers; never null when attached
+  const motion::Trajectory* frame = nullptr;  ///< motion of A; never null when attached
   /// Motion of the handle relative to which `frame` is defined. If set, A keeps its pose relative to the handle: when
   /// the handle is displaced, A is displaced with it. If null, `frame` is used as it is.
-  const motion::FrameMotion* handle = nullptr;
+  const motion::Trajectory* handle = nullptr;
 };
 
 /// The couplings of a held body. It keeps pointers to couplings and motions, which must outlive their attachment.
@@ -95,14 +95,14 @@ class Couplings {
 
   /// Attaches these couplings in place of the present ones. Returns whether the couplings or their laws have changed.
   bool attach(const std::vector<Attached>& couplings);
-  /// Detaches all but the first `kept` couplings until the next attach(). Attaching them again is no change.
-  void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }
+  /// Detaches all but the `first` first couplings until the next attach(). Attaching them again is no change.
+  void keep(std::size_t first) { attached_.resize(std::min(first, attached_.size())); }
   bool empty() const { return attached_.empty(); }  ///< whether no coupling is attached
 
   /// Computes the motions of the handle relative to the frames at time `t` [s].
-  void find_relative_motions(const motion::FrameMotion& handle, double t, RelativeMotions<double>& A_H) const;
+  void find_relative_motions(const motion::Trajectory& handle, double t, RelativeMotions<double>& A_H) const;
   /// Computes the motions of the handle relative to the frames at several times, one in each lane.
-  void find_relative_motions(const motion::FrameMotion& handle, const math::Pack& t,
+  void find_relative_motions(const motion::Trajectory& handle, const math::Pack& t,
                              RelativeMotions<math::Pack>& A_H) const;
   /// Returns lane `i` of motions at several times.
   static RelativeMotions<double> lane(const RelativeMotions<math::Pack>& A_H, int i);

@@ -21,7 +21,7 @@ struct BodyInertia {
 };
 
 /// Motion of the handle frame H at one moment.
-struct HandleMotion {
+struct HandleState {
   double t = 0.0;                                    ///< time [s]
   RigidTransform X_WH = RigidTransform::Identity();  ///< pose of the handle in world
   Vector3d v_WH_W = Vector3d::Zero();                ///< velocity of the origin, world axes [m/s]
@@ -32,18 +32,18 @@ struct HandleMotion {
   Couplings::RelativeMotions<double> relative_motions;  ///< motions of H relative to the frames of the couplings
 };
 
-/// Motion of the handle without its pose, at one moment (`S` double) or several (a math::Pack).
+/// Motion of the handle without its position, at one moment (`S` double) or several (a math::Pack).
 template <typename S>
-// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): HeldBody::motion_at sets all of it, in each step
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): HeldBody::state_at sets all of it, in each step
 struct HandleRates {
   S t;                                             ///< time [s]
-  motion::BodyFrameMotion<S> of_H;                 ///< velocities and accelerations of the handle, in its own axes
+  motion::BodyFrameRates<S> of_H;                  ///< velocities and accelerations of the handle, in its own axes
   Couplings::RelativeMotions<S> relative_motions;  ///< motions of H relative to the frames of the couplings
 };
 
 /// Motion of the handle at several moments, for integrators that use packs.
-struct HandleMotions : HandleRates<math::Pack> {
-  HandleMotion at(int i) const;  ///< the motion in lane `i`
+struct HandleStates : HandleRates<math::Pack> {
+  HandleState at(int i) const;  ///< the motion in lane `i`
 };
 
 /// Energy of held body and springs at several moments, with the power that should change it.
@@ -74,7 +74,7 @@ class HeldBody {
   /// Sets stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio ≥ 0 (Kelvin–Voigt; doc/model.md) per DOF.
   void set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio);
   /// Sets stiffness k [N/m, N/m, N·m/rad] and damping coefficients c [N·s/m, N·s/m, N·m·s/rad]: `D = (c / k) K`.
-  void set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping);
+  void set_coefficients(const rod::PerDof& stiffness, const rod::PerDof& damping);
   /// Sets the same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, with
   /// the mass matrix M of the unstrained fork. D is recomputed by set_dofs().
   void set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio);
@@ -104,11 +104,11 @@ class HeldBody {
   void set_path_check(PathCheck check) { path_check_ = std::move(check); }  ///< sets the check for the next step
   const PathCheck& path_check() const { return path_check_; }               ///< the check for the next step
 
-  void attach(const std::vector<Attached>& couplings);        ///< attaches further tools; see Couplings::attach
-  void detach(std::size_t kept) { couplings_.detach(kept); }  ///< detaches some; see Couplings::detach
-  bool coupled() const { return !couplings_.empty(); }        ///< whether further tools are attached
+  void attach(const std::vector<Attached>& couplings);      ///< sets the further tools; see Couplings::attach
+  void keep(std::size_t first) { couplings_.keep(first); }  ///< detaches the others; see Couplings::keep
+  bool coupled() const { return !couplings_.empty(); }      ///< whether further tools are attached
   /// Returns the sum over all couplings for a state of the body.
-  Couplings::Reading read_couplings(const HandleMotion& handle, const StrainState& state) const;
+  Couplings::Reading read_couplings(const HandleState& handle, const StrainState& state) const;
 
   int size() const { return coordinates_.size(); }                                  ///< number of active coordinates
   const ActiveCoordinates& coordinates() const { return coordinates_; }             ///< which coordinates are active
@@ -122,37 +122,36 @@ class HeldBody {
     rod::StrainMatrix D;  ///< damping, active coordinates
   };
   /// Returns K and D, with the couplings linearised at the strain `q`.
-  Springs springs(const HandleMotion& handle, const rod::StrainVector& q) const;
+  Springs springs(const HandleState& handle, const rod::StrainVector& q) const;
 
   /// Returns the motion of the handle at time `t` [s], in world and relative to the frames of the couplings.
-  HandleMotion motion_at(const motion::FrameMotion& handle, double t) const;
+  HandleState state_at(const motion::Trajectory& handle, double t) const;
   /// Returns the motions of the handle at several times, one in each lane.
-  HandleMotions motion_at(const motion::FrameMotion& handle, const math::Pack& t) const;
+  HandleStates state_at(const motion::Trajectory& handle, const math::Pack& t) const;
   /// Returns the acceleration q̈ of the active coordinates.
-  rod::StrainVector acceleration(const HandleMotion& handle, const rod::StrainVector& q,
+  rod::StrainVector acceleration(const HandleState& handle, const rod::StrainVector& q,
                                  const rod::StrainVector& q_dot) const;
   /// Returns q̈ for `n` = size(), 1 … 6, known at compile time: for integrators.
   template <int n>
-  Eigen::Matrix<double, n, 1> acceleration(const HandleMotion& handle, const Eigen::Matrix<double, n, 1>& q,
+  Eigen::Matrix<double, n, 1> acceleration(const HandleState& handle, const Eigen::Matrix<double, n, 1>& q,
                                            const Eigen::Matrix<double, n, 1>& q_dot) const;
   /// Computes q̈ at several moments. Each array has `n` packs.
   template <int n>
-  void acceleration(const HandleMotions& handle, const math::Pack* q, const math::Pack* q_dot,
-                    math::Pack* q_ddot) const;
+  void acceleration(const HandleStates& handle, const math::Pack* q, const math::Pack* q_dot, math::Pack* q_ddot) const;
   /// Returns energy and power at several moments, for arrays of size() packs, without a DOF that returns to zero.
-  EnergyBalance energy_balance(const HandleMotions& handle, const math::Pack* q, const math::Pack* q_dot) const;
+  EnergyBalance energy_balance(const HandleStates& handle, const math::Pack* q, const math::Pack* q_dot) const;
   rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;  ///< M(q) of the active coordinates
   bool rechart(StrainState& state) const;  ///< ShapeModel::rechart, active coordinates; not while a DOF returns
   /// Returns an active state at time `t` [s] in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const { return coordinates_.full_state(t, state); }
 
   /// Returns pose, velocity and, if `q_ddot` is given, acceleration of the object frame O, in world axes.
-  motion::MotionState object(const HandleMotion& handle, const StrainState& state,
+  motion::MotionState object(const HandleState& handle, const StrainState& state,
                              const rod::StrainVector* q_ddot = nullptr) const;
   /// Returns the Jacobian of O's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
   rod::TwistJacobian object_jacobian(double t, const rod::StrainVector& q) const;
   /// Returns the strain rate at the strain `q` that is closest, in kinetic energy, to a twist of O (world axes).
-  rod::StrainVector project_twist(const HandleMotion& handle, const rod::StrainVector& q, const Twist& V_WO_W) const;
+  rod::StrainVector project_twist(const HandleState& handle, const rod::StrainVector& q, const Twist& V_WO_W) const;
 
   double elastic_energy(double t, const StrainState& state) const;              ///< elastic energy U of the rod [J]
   rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;  ///< ∂U/∂q of the active coordinates
@@ -186,7 +185,7 @@ class HeldBody {
   template <int n, typename S>
   void accelerate(const HandleRates<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
   template <int n>
-  void balance(const HandleMotions& handle, const math::Pack* q, const math::Pack* q_dot, EnergyBalance& out) const;
+  void balance(const HandleStates& handle, const math::Pack* q, const math::Pack* q_dot, EnergyBalance& out) const;
   /// Returns the kinematics for the strain of all coordinates, or for that of the active ones at time `t`.
   Kinematics kinematics(const StrainState& full) const;
   Kinematics kinematics(double t, const rod::StrainVector& q) const;

@@ -64,12 +64,12 @@ class Integrator {
 
   /// Replaces `state` at time `t` by the state at `t + h` [s], h > 0; `handle` must cover that time. Returns an
   /// estimate of the local error. Set its `converged` to false if the method found no solution.
-  virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  virtual StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                             StrainState& state) = 0;
 
   /// Optional. Replaces `deviation`, a small change of the state `begin` at time `t` [s], by the change that it causes
   /// in the state `end` at `t + h`. For runs with a tolerance. Default: calls step() once more and subtracts.
-  virtual void propagate_deviation(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  virtual void propagate_deviation(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                                    const StrainState& begin, const StrainState& end, StrainState& deviation);
 
   /// Optional. Whether the method overrides propagate_run_error(). Default: false, and with the setting
@@ -89,7 +89,7 @@ class Integrator {
   };
   /// Optional. Returns the response of a step of `h` [s] from `state`, for contact. Default: the response of
   /// the implicit Euler rule.
-  virtual Response response(const HeldBody& body, const HandleMotion& handle, double h, const StrainState& state);
+  virtual Response response(const HeldBody& body, const HandleState& handle, double h, const StrainState& state);
 
   /// Optional. Saves or restores the history. Override it to call `state(a_, b_)` with all members that a later step()
   /// uses; if one is forgotten, replay and restored runs differ silently. Default: there is no history.

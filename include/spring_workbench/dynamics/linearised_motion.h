@@ -12,10 +12,10 @@ namespace spring_workbench::dynamics {
 struct LinearisedMotion {
   rod::StrainMatrix M, K, D;
   /// `moment`: the same moment as `handle`, in every lane.
-  LinearisedMotion(const HeldBody& body, const HandleMotion& handle, const HandleMotions& moment,
+  LinearisedMotion(const HeldBody& body, const HandleState& handle, const HandleStates& moment,
                    const StrainState& state, const rod::StrainVector& q_ddot);
   /// Takes springs and dampers into account, but no load, gravity or gyroscopic term.
-  LinearisedMotion(const HeldBody& body, const HandleMotion& handle, const rod::StrainVector& q);
+  LinearisedMotion(const HeldBody& body, const HandleState& handle, const rod::StrainVector& q);
   /// Size of a change of the rates, all coordinates together: the root of twice its kinetic energy.
   double size(const rod::StrainVector& q_dot) const { return std::sqrt(q_dot.dot(M * q_dot)); }
   /// Of a step in which the positions change by `d` [s] times the rates at its end.

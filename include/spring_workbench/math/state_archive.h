@@ -45,7 +45,7 @@ class StateArchive {
   /// Returns the size. Throws std::out_of_range if fewer words are left.
   std::size_t size(std::size_t present) {
     archive(present);
-    if (is_restoring() && present > source_->size() - next_) throw std::out_of_range("state: ends too early");
+    if (is_restoring() && present > source_->size() - next_) throw std::out_of_range("it ends too early");
     return present;
   }
 
@@ -87,7 +87,7 @@ class StateArchive {
       if constexpr (T::SizeAtCompileTime == Eigen::Dynamic) {
         archive(rows);
         archive(columns);
-        if (is_restoring() && !fits<T>(rows, columns)) throw std::out_of_range("state: size of a matrix");
+        if (is_restoring() && !fits<T>(rows, columns)) throw std::out_of_range("a matrix has another size");
         value.resize(rows, columns);
       }
       archive_numbers(value.data(), rows * columns);

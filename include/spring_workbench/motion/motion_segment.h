@@ -26,7 +26,7 @@ struct BodyRateState {
 
 /// Velocity and acceleration of a frame B in its own axes, at one time (`S` double) or at several (`S` a math::Pack).
 template <typename S>
-struct BodyFrameMotion {
+struct BodyFrameRates {
   math::Mat3x3<S> R_WB;   ///< rotation: columns are the axes of B in W
   math::Vec3<S> v_B;      ///< velocity of the origin [m/s]
   math::Vec3<S> w_B;      ///< angular velocity [rad/s]
@@ -35,14 +35,14 @@ struct BodyFrameMotion {
 };
 
 /// Motion of a frame as a function of time, such as the handle's. It is twice differentiable over the requested times.
-class FrameMotion {
+class Trajectory {
  public:
   virtual BodyRateState body_rate_state(double t) const = 0;  ///< returns the motion at time `t` [s]
   /// Returns the motion at several times `t` [s], with `gravity` [m/s²] along −z of world.
-  virtual BodyFrameMotion<math::Pack> body_frame_motion(const math::Pack& t, double gravity) const = 0;
+  virtual BodyFrameRates<math::Pack> body_frame_rates(const math::Pack& t, double gravity) const = 0;
 
  protected:
-  ~FrameMotion() = default;
+  ~Trajectory() = default;
 };
 
 /// One sample of a tracked frame: time [s] and pose.
@@ -56,7 +56,7 @@ struct PoseSample {
 
 /// The motion between two neighbouring samples: cubic Hermite interpolation of position and rotation vector, with given
 /// velocities at both ends (see doc/model.md).
-class MotionSegment final : public FrameMotion {
+class MotionSegment final : public Trajectory {
  public:
   /// A frame at rest at the pose `X` from `begin` to `end` [s]; by default forever.
   explicit MotionSegment(const RigidTransform& X, double begin = -std::numeric_limits<double>::infinity(),
@@ -74,7 +74,7 @@ class MotionSegment final : public FrameMotion {
   /// Returns the motion at time `t` [s], begin() ≤ t ≤ end(), in world axes.
   MotionState at(double t) const;
   BodyRateState body_rate_state(double t) const override;
-  BodyFrameMotion<math::Pack> body_frame_motion(const math::Pack& t, double gravity) const override;
+  BodyFrameRates<math::Pack> body_frame_rates(const math::Pack& t, double gravity) const override;
   /// Returns whether this frame rests, and `next` is at a different pose at time `t` [s].
   bool rests_apart_from(const MotionSegment& next, double t) const {
     return !moving_ && at(t).X.matrix() != next.at(t).X.matrix();
@@ -114,9 +114,9 @@ class MotionSegment final : public FrameMotion {
   template <typename S>
   Turn<S> turn(const S& u, double per_second) const;
   /// The motion of C, given that of B.
-  BodyFrameMotion<math::Pack> at_frame(const BodyFrameMotion<math::Pack>& f) const;
+  BodyFrameRates<math::Pack> at_frame(const BodyFrameRates<math::Pack>& f) const;
   BodyRateState of_samples(double t) const;
-  BodyFrameMotion<math::Pack> of_samples(const math::Pack& t, double gravity) const;
+  BodyFrameRates<math::Pack> of_samples(const math::Pack& t, double gravity) const;
 
   RigidTransform X_a_;
   double begin_;

@@ -88,10 +88,10 @@ std::string find_package_in_ros_package_path(const std::string& package);
 
 /// Reads a scene from a URDF, given by its path or `package://` URI, and from the YAML file of the same name next to
 /// it, if there is one. If `roots` are given, all files must be in one of these folders or in a ROS package, after
-/// symbolic links are resolved. `name`: name of the path in messages, such as `command line: --scene`. Throws
+/// symbolic links are resolved. `key`: what messages call the path, such as `command line: --scene`. Throws
 /// InputError, with file, field, rule and value, for invalid input.
 Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots = {},
-                 const std::string& name = "scene");
+                 const std::string& key = "scene");
 
 /// Returns the index in `scene.bodies` of the body called `name`, or nothing if there is none.
 std::optional<std::size_t> find_body(const Scene& scene, const std::string& name);

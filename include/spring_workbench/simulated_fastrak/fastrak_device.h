@@ -15,8 +15,8 @@ namespace spring_workbench::simulated_fastrak {
 class PlayedMotion {
  public:
   /// Throws InputError if there are no samples, or for a position beyond the digits of the device (10 m and more).
-  /// Samples that are not later than the previous one are skipped.
-  explicit PlayedMotion(const std::vector<motion::StylusSample>& samples);
+  /// Samples that are not later than the previous one are skipped. `name`: what messages call the motion.
+  explicit PlayedMotion(const std::vector<motion::StylusSample>& samples, const std::string& name = "motion");
   /// `t` [s] >= 0.
   motion::StylusSample at(double t) const;
 

@@ -37,10 +37,10 @@ struct SimulationSettings {
   tools::GraspSettings grasp;  ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;  ///< key `dropout_after` [s], > 0: longest gap between samples that is interpolated
   double external_wrench_timeout = 0.1;  ///< key of this name [s], 1e-3 … 10: how long a wrench acts
-  int impact_bisections = 8;  ///< key `impact_bisections`, 0 … 30 to find an impact (paper, section 5); 0: compute it
+  int impact_bisections = 8;             ///< key `impact_bisections`, 0 … 30: to find an impact; 0: compute its time
 };
 
-/// Throws InputError, with `where`, key, value and rule, if a value is not allowed by its key or by the damping law.
+/// Throws InputError, with `where`, key, value and rule, if a value is not allowed, by its key or together with others.
 void validate(const SimulationSettings& settings, const std::string& where);
 
 /// Converts a twist (world axes) to the hand's scales of length and time, for a machine in place of the hand.

@@ -27,7 +27,7 @@ class SimulationState {
  public:
   SimulationState() = default;  ///< an empty state, which `Simulation::restore` refuses
 
-  int styluses() const { return styluses_; }  ///< number of styluses of the simulation that was saved; 0 if empty
+  int hands() const { return styluses_; }  ///< number of hands of the simulation that was saved; 0 if empty
   std::uint64_t hash() const { return math::hash(words_); }  ///< equal for equal states, on every machine
   /// Whether two states are bit-identical and from simulations of the same kind.
   bool operator==(const SimulationState& other) const { return origin_ == other.origin_ && words_ == other.words_; }

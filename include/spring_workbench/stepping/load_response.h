@@ -17,11 +17,11 @@ class LoadResponse {
   /// springs, dampers and mass alone by the implicit Euler rule, so that nothing moves against its load. Stops that
   /// were met are not crossed.
   dynamics::Integrator::Response response(dynamics::Integrator& integrator, const dynamics::HeldBody& body,
-                                          const dynamics::HandleMotion& handle, double h,
+                                          const dynamics::HandleState& handle, double h,
                                           const dynamics::StrainState& state) const;
   /// Corrects `state`, the result of a step of `h` [s] that ends at the time of `handle`, for a change of the
   /// generalised force by `change`, within the rod's range.
-  void correct(dynamics::Integrator& integrator, const dynamics::HeldBody& body, const dynamics::HandleMotion& handle,
+  void correct(dynamics::Integrator& integrator, const dynamics::HeldBody& body, const dynamics::HandleState& handle,
                double h, const rod::StrainVector& change, dynamics::StrainState& state);
 
  private:

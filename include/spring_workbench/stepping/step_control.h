@@ -95,7 +95,7 @@ class StepControl {
   double tolerance() const { return tolerance_; }  ///< [m]
 
   /// Carries `state` over the span from `t` to `t + h` [s], h > 0; `handle` must cover that time.
-  ControlledStep advance(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  ControlledStep advance(const dynamics::HeldBody& body, const motion::Trajectory& handle, double t, double h,
                          dynamics::StrainState& state, Memory& memory) const;
 
   /// Saves or restores the histories of the integrators.

@@ -22,7 +22,7 @@ simulated_fastrak::PlayedMotion read_motion(const std::string& path) {
   const auto source = motion_files::open_motion(path);
   std::vector<motion::StylusSample> samples;
   while (const auto sample = source->next()) samples.push_back(*sample);
-  return simulated_fastrak::PlayedMotion(samples);
+  return simulated_fastrak::PlayedMotion(samples, path);
 }
 
 /// Serves the host until a moment of the wall clock.

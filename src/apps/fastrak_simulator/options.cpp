@@ -51,7 +51,7 @@ fastrak_simulator --motion FILE [--motion FILE ...] [--link PATH] [--rate HZ] [-
   --duration  run time by the device's clock [s]; 0, the default: until interrupted
   --switch    the switch of station K, 2 ... 4, also works, with the button of its motion. An original device has only
               the switch of station 1; devices that emulate it may have others
-  --fault     a fault from `from` to `until` [s; 0, forever], in the fraction `rate` (0 ... 1; 1) of the records:
+  --fault     a fault `from` (default 0) `until` (forever) [s] in a fraction `rate` (default 1) of the records:
               garbage     random bytes before, in or after a record, or a bit that is wrong
               cut         a stretch of a record is missing
               error       error letters, and error records between the data

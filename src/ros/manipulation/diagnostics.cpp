@@ -144,7 +144,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   if (loop.deadlines_missed > last_loop_.deadlines_missed)
     status.warn(increase("deadlines missed", last_loop_.deadlines_missed, loop.deadlines_missed));
   if (loop.waits > last_loop_.waits)
-    status.warn("the loop waits for publishing: lower the rate or the number of subscribers");
+    status.warn("publishing is too slow: lower the tracker's rate or remove subscribers");
   if (loop.time_skipped > last_loop_.time_skipped)
     status.warn(increase("simulated time skipped [s]", last_loop_.time_skipped, loop.time_skipped));
   if (loop.cycles_behind > last_loop_.cycles_behind)

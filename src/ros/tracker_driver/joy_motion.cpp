@@ -20,7 +20,7 @@ std::array<int, 6> read_axes(const YAML::Node& node, const std::string& where) {
   std::array<int, 6> axes{};
   for (std::size_t i = 0; i < 6; ++i) {
     if (!(numbers[i] >= -1.0 && numbers[i] < max_controls && numbers[i] == std::floor(numbers[i]))) {
-      validation::refuse(where, "axes", validation::number_text(numbers[i]), "the number of an axis, or -1 for none");
+      validation::refuse(where, "axes", validation::number_text(numbers[i]), "an integer between -1 (none) and 63");
     }
     axes[i] = static_cast<int>(numbers[i]);
   }

@@ -42,7 +42,7 @@ std::vector<int> read_head_stations(const YAML::Node& value, const std::string& 
     if (station == 1 || std::count(stations.begin(), stations.end(), station) == 0 ||
         std::count(heads.begin(), heads.end(), station) > 0) {
       validation::refuse(where, "head_stations", std::to_string(station),
-                         "distinct stations of the parameter stations, without 1 (the stylus)");
+                         "distinct stations listed in ~stations, without 1 (the stylus)");
     }
     heads.push_back(station);
   }

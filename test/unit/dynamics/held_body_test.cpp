@@ -114,7 +114,7 @@ TEST(HeldBody, NoLagBehindAHandAtConstantVelocity) {
   const motion::MotionSegment hand(a, v, Vector3d::Zero(), b, v, Vector3d::Zero());
   for (const std::string& name : test_support::integrator_names()) {
     StrainState s = held.zero_state();
-    s.q_dot = held.project_twist(held.motion_at(hand, 0.0), s.q, Twist());
+    s.q_dot = held.project_twist(held.state_at(hand, 0.0), s.q, Twist());
     const auto integrator = test_support::make_integrator(name);
     const double h = integrator->stiffly_stable() ? 0.02 : 2e-4;
     for (int i = 0; h * i < 3.0; ++i) integrator->step(held, hand, h * i, h, s);
@@ -125,7 +125,7 @@ TEST(HeldBody, NoLagBehindAHandAtConstantVelocity) {
 TEST(HeldBody, ProjectedTwistIsTheObjectsOwnWhereTheForkCanFollow) {
   HeldBody held = held_by("linear", {2000.0, 500.0, 5.0}, {1.0, 1.0, 1.0}, box_off_centre());
   const motion::MotionSegment hand = moving_hand(0.1);
-  const HandleMotion f = held.motion_at(hand, 0.03);
+  const HandleState f = held.state_at(hand, 0.03);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   StrainState s = held.zero_state();
@@ -161,7 +161,7 @@ TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
         StrainState s = held.zero_state();
         s.q = rod::StrainVector::NullaryExpr(held.size(), [&] { return 0.03 * uniform(random); });
         s.q_dot = rod::StrainVector::NullaryExpr(held.size(), [&] { return uniform(random); });
-        const HandleMotion at = held.motion_at(hand, 0.05);
+        const HandleState at = held.state_at(hand, 0.05);
         const rod::StrainVector q_ddot = held.acceleration(at, s.q, s.q_dot);
         const motion::MotionState o = held.object(at, s, &q_ddot);
         const Matrix3d R = o.X.linear(), I_W = R * held.body().inertia_O * R.transpose();
@@ -311,7 +311,7 @@ TEST(HeldBody, EnergyChangesByTheWorkThatIsTold) {
             q[i][k] = state.q[i];
             q_dot[i][k] = state.q_dot[i];
           }
-          const HandleMotion h_k = held.motion_at(hand, times[k]);
+          const HandleState h_k = held.state_at(hand, times[k]);
           const motion::MotionState o = held.object(h_k, state);
           const Vector3d r = o.X.translation() - h_k.X_WH.translation(), p = held.body().mass * o.velocity.linear;
           const Matrix3d I_W = o.X.linear() * held.body().inertia_O * o.X.linear().transpose();
@@ -319,7 +319,7 @@ TEST(HeldBody, EnergyChangesByTheWorkThatIsTold) {
                         held.body().mass * held.gravity() * r.z() - p.dot(h_k.v_WH_W) -
                         (I_W * o.velocity.angular + r.cross(p)).dot(h_k.X_WH.linear() * h_k.w_WH_H);
         }
-        const EnergyBalance balance = held.energy_balance(held.motion_at(hand, times), q, q_dot);
+        const EnergyBalance balance = held.energy_balance(held.state_at(hand, times), q, q_dot);
         const double scale = std::abs(expected[0]) + std::abs(balance.power[0]) * h;
         for (int k = 0; k < math::pack_size; ++k) EXPECT_NEAR(balance.energy[k], expected[k], 1e-12 * scale) << shape;
         const math::Pack& p = balance.power;
@@ -338,7 +338,7 @@ TEST(HeldBody, PoseJacobianAndMassMatrixDoNotDependOnWhatWasAskedBefore) {
     const HeldBody fresh = held_by(shape, {2000.0, 500.0, 5.0}, {0.3, 1.0, 2.0}, box_off_centre());
     HeldBody asked = fresh;
     const rod::StrainVector one = rod::StrainVector::Constant(fresh.size(), 0.1), rate = 3.0 * one;
-    const HandleMotion handle = fresh.motion_at(hand, 0.2);
+    const HandleState handle = fresh.state_at(hand, 0.2);
     asked.object(handle, {2.0 * one, rate});
     asked.object_jacobian(0.2, one);
     const motion::MotionState again = asked.object(handle, {one, rate}, &rate),
@@ -360,7 +360,7 @@ TEST(HeldBody, DampingIsWhatTheAccelerationTakesFromTheRates) {
         HeldBody held = held_by(shape, {2000.0, 500.0, 5.0}, {0.3, 1.0, 2.0}, box_off_centre());
         if (modal) held.set_springs_with_modal_damping({2000.0, 500.0, 5.0}, 0.7);
         only(held, dofs);
-        const HandleMotion hand = held.motion_at(rest, 0.0);
+        const HandleState hand = held.state_at(rest, 0.0);
         const rod::StrainVector q = held.zero_state().q;
         const rod::StrainMatrix M = held.mass_matrix(0.0, q), D = held.damping();
         for (int i = 0; i < held.size(); ++i) {
@@ -386,7 +386,7 @@ TEST(HeldBody, FamilyOffIsTheLimitOfAStiffOne) {
         StrainState s = held.zero_state();
         const auto integrator = test_support::make_integrator(name);
         for (int i = 0; i < 200; ++i) integrator->step(held, hand, 0.001 * i, 0.001, s);
-        return held.object(held.motion_at(hand, 0.2), s).X;
+        return held.object(held.state_at(hand, 0.2), s).X;
       };
       const RigidTransform rigid = end_pose(1.0, false);
       double last = 1.0;
@@ -422,12 +422,12 @@ TEST(HeldBody, SwitchingOffWhileStrainedKeepsPoseAndTwistAndEndsAtZero) {
   const auto integrator = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
   double t = 0.0;
   for (; t < 0.2; t += 0.01) integrator->step(held, hand, t, 0.01, s);
-  const motion::MotionState before = held.object(held.motion_at(hand, t), s);
+  const motion::MotionState before = held.object(held.state_at(hand, t), s);
   const double torsion = held.shape().torsion_angle(held.full_state(t, s).q);
   ASSERT_GT(std::abs(torsion), 1e-4);
   s = held.set_dofs({true, true, false}, t, 0.01, held.full_state(t, s));
   EXPECT_EQ(held.size(), 5);
-  const motion::MotionState after = held.object(held.motion_at(hand, t), s);
+  const motion::MotionState after = held.object(held.state_at(hand, t), s);
   EXPECT_LT((after.X.matrix() - before.X.matrix()).norm(), 1e-14);
   EXPECT_LT((after.velocity.linear - before.velocity.linear).norm(), 1e-14);
   EXPECT_LT((after.velocity.angular - before.velocity.angular).norm(), 1e-13);

@@ -79,7 +79,7 @@ TEST_P(EveryIntegrator, KnowsTheWorkOfAStepOrDoesNotTellIt) {
             q[i] = state.q[i] + math::Pack{};
             q_dot[i] = state.q_dot[i] + math::Pack{};
           }
-          return c.held.energy_balance(c.held.motion_at(c.hand, t + math::Pack{}), q, q_dot).energy[0];
+          return c.held.energy_balance(c.held.state_at(c.hand, t + math::Pack{}), q, q_dot).energy[0];
         };
         const double before = balance(0.05);
         integrator->step(c.held, c.hand, 0.05, h, state);
@@ -258,9 +258,9 @@ TEST(Exponential, IsExactInOneCoordinateHoweverCloseToCriticalDamping) {
     const motion::MotionSegment hand(a, Vector3d(0, 0, uniform(random)), Vector3d::Zero(), b,
                                      Vector3d(0, 0, uniform(random)), Vector3d::Zero());
     const rod::StrainVector zero = rod::StrainVector::Zero(1);
-    const double alpha = held.acceleration(held.motion_at(hand, 0.0), zero, zero)[0],
-                 beta = (held.acceleration(held.motion_at(hand, 0.5 * duration), zero, zero)[0] - alpha) /
-                        (0.5 * duration);
+    const double alpha = held.acceleration(held.state_at(hand, 0.0), zero, zero)[0],
+                 beta =
+                     (held.acceleration(held.state_at(hand, 0.5 * duration), zero, zero)[0] - alpha) / (0.5 * duration);
     const auto exact = oscillator(omega, zeta, alpha, beta, duration);
     const double size = (std::abs(alpha) + duration * std::abs(beta)) / (omega * omega);
     for (const int steps : {1, 5, 40, 320}) {
@@ -345,7 +345,7 @@ TEST(Exponential, GoesOnBitIdenticallyFromARestoredHistoryWhateverItDidBefore) {
       EXPECT_EQ(ahead.q, expected.q) << i << " " << share;
       EXPECT_EQ(ahead.q_dot, expected.q_dot) << i << " " << share;
       EXPECT_EQ(e.q_error, of_fresh.q_error) << i << " " << share;
-      const HandleMotion f = c.held.motion_at(c.hand, i * h);
+      const HandleState f = c.held.state_at(c.hand, i * h);
       EXPECT_EQ(restored->response(c.held, f, h, ahead).q, fresh->response(c.held, f, h, ahead).q);
     }
     integrator->step(c.held, c.hand, i * h, h, state);

@@ -168,7 +168,7 @@ TEST(MotionSegment, OfAnotherFrameIsTheMotionOfThatFrame) {
     EXPECT_LT(distance(of_C.of_frame(X_CD).at(t).X, of_B.of_frame(X_BC * X_CD).at(t).X), 1e-14);
 
     const math::Pack times = {0.0, 0.004, t, 0.02};
-    const BodyFrameMotion<math::Pack> f = of_C.body_frame_motion(times, 9.81);
+    const BodyFrameRates<math::Pack> f = of_C.body_frame_rates(times, 9.81);
     for (int i = 0; i < math::pack_size; ++i) {
       const BodyRateState own = of_C.body_rate_state(times[i]);
       const Vector3d a_C = own.X.linear().transpose() * (own.a_W + 9.81 * Vector3d::UnitZ());

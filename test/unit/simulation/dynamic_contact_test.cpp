@@ -164,6 +164,22 @@ TEST(DynamicContact, LiftsAStackAndPutsItDown) {
   EXPECT_NEAR(object(s, "upper").X_WO.translation().z(), 0.06, 2e-4);
 }
 
+TEST(DynamicContact, WhatIsCarriedDoesNotSlipOnWhatCarriesIt) {
+  scene::Scene scene = scene_of({box("tray", Vector3d(0.2, 0.2, 0.02), 1.0, Vector3d(0, 0, 0.05)),
+                                 box("load", Vector3d(0.06, 0.06, 0.04), 0.5, Vector3d(0, 0, 0.08))});
+  SimulationSettings set;
+  set.fork.stiffness = {5000.0, 5000.0, 50.0};
+  set.grasp.object = "tray";
+  Simulation s(scene, set);
+  const Vector3d start(0, 0, 0.05 + set.fork.length);
+  push_move(s, 0.0, 1.0, start, start + Vector3d(0.1, 0, 0));
+  s.advance_to(0.5);
+  EXPECT_GT(object(s, "load").V_WO_W.linear.norm(), 0.1);
+  const auto& contacts = s.contacts();
+  EXPECT_FALSE(contacts.empty());
+  for (const contact::ContactState& c : contacts) EXPECT_LT(c.slip_speed, 2e-3) << c.object << " on " << c.other;
+}
+
 TEST(DynamicContact, PushesANeighbourAlong) {
   scene::Scene scene = scene_of({box("pusher", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.03)),
                                  box("pushed", Vector3d(0.1, 0.1, 0.06), 1.0, Vector3d(0.2, 0, 0.03))});

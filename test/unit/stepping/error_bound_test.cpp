@@ -38,7 +38,7 @@ Case seeded_case(int run, std::mt19937& random) {
 struct Distance {
   double position, angle;
 };
-Distance between(const HeldBody& held, const HandleMotion& at, const StrainState& a, const StrainState& b) {
+Distance between(const HeldBody& held, const HandleState& at, const StrainState& a, const StrainState& b) {
   const RigidTransform A = held.object(at, a).X, B = held.object(at, b).X;
   return {(A.translation() - B.translation()).norm(), math::turn_between(A, B).norm()};
 }
@@ -86,7 +86,7 @@ void run_one(int run, double duration, const std::string& integrator, Found& fou
       truth = state;
       continue;
     }
-    const HandleMotion end = c.held.motion_at(hand, t);
+    const HandleState end = c.held.state_at(hand, t);
     const Distance of_run = between(c.held, end, state, truth), of_step = between(c.held, end, state, local);
     if (of_run.position > rounding) {
       found.over.push_back(memory.error_bound / of_run.position);

@@ -57,7 +57,7 @@ TEST(FindStrain, FindsTheEquilibriumUnderTheWeight) {
       const HeldBody held = random_body(shape, random);
       RigidTransform X_WH = RigidTransform::Identity();
       X_WH.linear() = math::exp_so3(Vector3d(0.5 * trial, 1.0, -0.2 * trial));
-      const dynamics::HandleMotion handle = held.motion_at(motion::MotionSegment(X_WH), 0.0);
+      const dynamics::HandleState handle = held.state_at(motion::MotionSegment(X_WH), 0.0);
       const StrainVector rest = StrainVector::Zero(held.size());
       const auto force = [&](const StrainVector& q) -> StrainVector {
         return held.mass_matrix(0.0, q) * held.acceleration(handle, q, rest);

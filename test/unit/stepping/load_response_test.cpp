@@ -34,7 +34,7 @@ struct Case {
     state = begin;
     integrator->step(*held, hand, 0.0, h, state);
     if (!admissible()) state = begin;
-    end = held->motion_at(hand, h);
+    end = held->state_at(hand, h);
   }
   double unit() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random); }
   bool admissible() const { return held->shape().admissible(held->full_state(h, state).q); }
@@ -57,7 +57,7 @@ struct Case {
   double h = 0.0;
   motion::MotionSegment hand{RigidTransform::Identity()};
   StrainState state;
-  HandleMotion end;
+  HandleState end;
 };
 
 double range_used(const Case& c) { return c.held->shape().range_used(c.held->full_state(c.h, c.state).q); }

@@ -39,7 +39,7 @@ TEST(Paper, ComesToTheRestOfTheEquationOfMotion) {
     c.hand = motion::MotionSegment(c.hand.at(0.0).X);
     state = carried(c, 0.0, 0.05, 400, state);
     const rod::StrainVector a =
-        c.held.acceleration(c.held.motion_at(c.hand, 20.0), state.q, rod::StrainVector::Zero(state.q.size()));
+        c.held.acceleration(c.held.state_at(c.hand, 20.0), state.q, rod::StrainVector::Zero(state.q.size()));
     EXPECT_LT((c.held.object_jacobian(20.0, state.q) * a).norm(), 1e-7) << shape << " " << trial;
     EXPECT_LT(state.q_dot.norm(), 1e-9) << shape << " " << trial;
   }
@@ -194,7 +194,7 @@ TEST(Paper, NoHandNoForkAndNoStepMakesItRejectOne) {
       ASSERT_TRUE(done.accepted && done.fallback == 0 && done.substeps == 0 && done.steps == 1)
           << shape << " hand " << trial % 5 << " ζ " << zeta << " k " << k << " m " << m << " h " << step
           << " families " << 1 + trial % 7 << " at " << t;
-      ASSERT_LT(held.object(held.motion_at(segment, t), state).X.translation().norm(), 100.0);
+      ASSERT_LT(held.object(held.state_at(segment, t), state).X.translation().norm(), 100.0);
     }
   }
 }
@@ -235,7 +235,7 @@ TEST(Paper, SelectsTheFirstBodyInFront) {
     });
     StrainState state = held.zero_state();
     const auto integrator = paper();
-    const auto height = [&](double t) { return held.object(held.motion_at(hanging, t), state).X.translation().z(); };
+    const auto height = [&](double t) { return held.object(held.state_at(hanging, t), state).X.translation().z(); };
     int steps = 0;
     while (steps < 100 && height(0.02 * steps) > floor) integrator->step(held, hanging, 0.02 * steps++, 0.02, state);
     if (reaches > 1.0) {  // never there, and asked once a step
@@ -276,14 +276,14 @@ TEST(Paper, SaysHowItsStepRespondsToALoad) {
     const auto integrator = paper();
     for (int i = 0; i < 10; ++i) integrator->step(c.held, c.hand, 0.01 * i, 0.01, begin);
     const double h = 0.01;
-    const Integrator::Response r = integrator->response(c.held, c.held.motion_at(c.hand, 0.1), h, begin);
+    const Integrator::Response r = integrator->response(c.held, c.held.state_at(c.hand, 0.1), h, begin);
     const double size = 1e-4 * c.held.body().mass;
     const Wrench load{size * Vector3d(uniform(random), uniform(random), uniform(random)), Vector3d::Zero()};
     StrainState free = begin, loaded = begin;
     integrator->step(c.held, c.hand, 0.1, h, free);
     c.held.set_load(load);
     integrator->step(c.held, c.hand, 0.1, h, loaded);
-    const auto R_HW = c.held.motion_at(c.hand, 0.1 + h).X_WH.linear().transpose();
+    const auto R_HW = c.held.state_at(c.hand, 0.1 + h).X_WH.linear().transpose();
     const rod::StrainVector Q = c.held.object_jacobian(0.1 + h, begin.q).topRows<3>().transpose() * (R_HW * load.force);
     const rod::StrainVector moved = loaded.q - free.q;
     EXPECT_LT((r.q * Q - moved).norm(), 1e-6 * moved.norm() + 1e-12) << shape << " " << trial;
@@ -307,7 +307,7 @@ TEST(Paper, FollowsAFamilyThatReturnsToZero) {
       c.held.drop_finished_returns(t + 0.02);
       ASSERT_TRUE(state.q.allFinite());
     }
-    const rod::StrainVector a = c.held.acceleration(c.held.motion_at(c.hand, t), state.q, state.q_dot);
+    const rod::StrainVector a = c.held.acceleration(c.held.state_at(c.hand, t), state.q, state.q_dot);
     EXPECT_LT((c.held.object_jacobian(t, state.q) * a).norm(), 1e-6) << shape;
   }
 }

@@ -65,7 +65,7 @@ HeldBody body_of(const Cell& cell, const std::string& shape) {
 }
 
 double energy(const HeldBody& held, const motion::MotionSegment& hand, double t, const StrainState& s) {
-  const HandleMotion f = held.motion_at(hand, t);
+  const HandleState f = held.state_at(hand, t);
   const motion::MotionState o = held.object(f, s);
   const double height = o.X.translation().z() - held.object(f, held.zero_state()).X.translation().z();
   return held.elastic_energy(t, s) + held.kinetic_energy(o.velocity, o.X.linear()) + held.body().mass * 9.81 * height;
@@ -93,7 +93,7 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
     if (!step.accepted) return "refused";
     t += h;
     if (!state.q.allFinite() || !state.q_dot.allFinite()) return "not finite";
-    const motion::MotionState o = held.object(held.motion_at(segment, t), state);
+    const motion::MotionState o = held.object(held.state_at(segment, t), state);
     if (o.X.translation().norm() > 1e4) return "not bounded: " + std::to_string(o.X.translation().norm());
     if (t < rest_from + 1e-9) continue;
     const motion::MotionSegment rest = track.segment(rest_from + 1.0);
@@ -173,7 +173,7 @@ TEST(Stop, NeitherGainsNorLosesEnergyWhereTheHandsAccelerationRises) {
     StrainState state = held.zero_state();
     state.q[1] = -0.98 + 1e-9;
     state.q_dot[0] = 50.0;  // of the twist, over the length
-    const auto seen_from_hand = [&] { return held.object(HandleMotion(), state); };
+    const auto seen_from_hand = [&] { return held.object(HandleState(), state); };
     const auto energy = [&] {
       const motion::MotionState o = seen_from_hand();
       return held.kinetic_energy(o.velocity, o.X.linear()) + 2.0 * 9.81 * o.X.translation().z();

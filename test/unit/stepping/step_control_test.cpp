@@ -168,7 +168,7 @@ class NotesLengths final : public Integrator {
   int order() const override { return method_->order(); }
   bool stiffly_stable() const override { return true; }
   Energy energy() const override { return method_->energy(); }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override {
     lengths_.insert(std::lround(1e9 * h));
     ++steps_;
@@ -216,7 +216,7 @@ TEST(StepControl, GoesOnInWholeStepsWhereALoadAndTheSpringsCancel) {
     c.held.set_springs(fork);
     const Vector3d F = 0.005 * stiffness * Vector3d(uniform(random), uniform(random), uniform(random));
     c.held.set_load({F, Vector3d(0.05 * uniform(random), 0.05 * uniform(random), -0.02).cross(F)});
-    const motion::MotionSegment hand(c.held.motion_at(c.hand, 0.0).X_WH);
+    const motion::MotionSegment hand(c.held.state_at(c.hand, 0.0).X_WH);
     for (const double h : {0.02, 0.002, 0.0003}) {
       const StepControl control(test_support::make_integrator("exponential"));
       StepControl::Memory memory;
@@ -262,7 +262,7 @@ class SolvesLater final : public Integrator {
   explicit SolvesLater(double from) : from_(from) {}
   int order() const override { return 1; }
   bool stiffly_stable() const override { return true; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion&, double t, double, StrainState& state) override {
+  StepEstimate step(const HeldBody& body, const motion::Trajectory&, double t, double, StrainState& state) override {
     state.q_dot.setZero();
     return {body.zero_state().q, 0.0, body.zero_state().q, t >= from_};
   }
@@ -298,7 +298,7 @@ class GainsEnergy final : public Integrator {
   int order() const override { return 1; }
   bool stiffly_stable() const override { return true; }
   Energy energy() const override { return Energy::dissipated; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion&, double, double h, StrainState& state) override {
+  StepEstimate step(const HeldBody& body, const motion::Trajectory&, double, double h, StrainState& state) override {
     state.q_dot *= std::sqrt(1.0 + share_ * h * h);
     return {body.zero_state().q, 0.0, body.zero_state().q, true};
   }
@@ -331,7 +331,7 @@ class LeavesTheRange final : public Integrator {
  public:
   int order() const override { return 1; }
   bool stiffly_stable() const override { return false; }  // so that no step is divided
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion&, double, double, StrainState& state) override {
+  StepEstimate step(const HeldBody& body, const motion::Trajectory&, double, double, StrainState& state) override {
     const rod::StrainVector zero = body.zero_state().q;
     state.q = 5.0 * body.units();
     state.q[body.size() - 1] = -3.0 * body.units()[body.size() - 1];
@@ -348,7 +348,7 @@ TEST(StepControl, AStopAddsNoEnergyWhateverTheStepHasGained) {
     for (int trial = 0; trial < 20; ++trial) {
       const HeldBody held = random_case(shape, 0.0, 1.0, random).held;
       const auto energy = [&](const StrainState& s) {
-        const motion::MotionState o = held.object(held.motion_at(rest, 0.0), s);
+        const motion::MotionState o = held.object(held.state_at(rest, 0.0), s);
         return held.elastic_energy(0.0, s) + held.kinetic_energy(o.velocity, o.X.linear()) +
                held.body().mass * held.gravity() * o.X.translation().z();
       };
@@ -465,12 +465,12 @@ TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
 class CarriesNothing final : public Integrator {
  public:
   int order() const override { return 4; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const motion::Trajectory& handle, double t, double h,
                     StrainState& state) override {
     if (++steps_ > 1000) throw std::runtime_error("steps without end");
     return method_->step(body, handle, t, h, state);
   }
-  void propagate_deviation(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&,
+  void propagate_deviation(const HeldBody&, const motion::Trajectory&, double, double, const StrainState&,
                            const StrainState&, StrainState& deviation) override {
     deviation.q.setConstant(std::numeric_limits<double>::quiet_NaN());
   }

@@ -108,7 +108,7 @@ double settling_time(const dynamics::BodyInertia& body, int direction) {
   const auto integrator = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
   const motion::MotionSegment hand{RigidTransform::Identity()};
   const auto place = [&](const dynamics::StrainState& state) {
-    const RigidTransform X = held.object(held.motion_at(hand, 0.0), state).X;
+    const RigidTransform X = held.object(held.state_at(hand, 0.0), state).X;
     return direction < 3 ? X.translation()[direction] : math::log_so3(X.linear())[direction - 3];
   };
   const dynamics::StrainState zero{rod::StrainVector::Zero(6), rod::StrainVector::Zero(6)};
