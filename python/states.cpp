@@ -102,10 +102,10 @@ void bind_tool(py::module& module) {
                     "Transverse force at the handle [N] (the paper, section 4).")
       .def_readonly("force_angle", &ToolState::force_angle,
                     "Angle between the tool's axis and the force on it, 0 to pi [rad] (the paper, section 4).")
-      .def_readonly(
-          "load", &ToolState::load,
-          "The larger of the tip's force and its moment over the length, from 0 to 1 (the weight of the scene's "
-          "heaviest object); logarithmic if the weights of the objects span more than a decade.")
+      .def_readonly("load", &ToolState::load,
+                    "The larger of the tip's force and its moment over the length, relative to the weight of the "
+                    "heaviest object or "
+                    "of calibration.world.heaviest, 0 to 1; logarithmic if weights span more than a decade.")
       .def_readonly("clutch", &ToolState::clutch, "True while the hand moves without the tool.")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
                     "Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading.")

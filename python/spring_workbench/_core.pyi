@@ -183,8 +183,8 @@ class ToolState:
         """Angle between the tool's axis and the force on it, 0 to pi [rad] (the paper, section 4)."""
     @property
     def load(self) -> float:
-        """The larger of the tip's force and its moment over the length, from 0 to 1 (the weight of the scene's heaviest
-        object); logarithmic if the weights of the objects span more than a decade."""
+        """The larger of the tip's force and its moment over the length, relative to the weight of the heaviest object or
+        of calibration.world.heaviest, 0 to 1; logarithmic if weights span more than a decade."""
     @property
     def clutch(self) -> bool:
         """True while the hand moves without the tool."""

@@ -26,7 +26,7 @@ DofControls::DofControls(QWidget* parent) : QWidget(parent) {
     dof.damping = new LogSlider(0.01, 10.0, "", this);
     dof.on->setToolTip("off: rigid");
     dof.stiffness->setToolTip("stiffness");
-    dof.damping->setToolTip("damping ratio, 1 is critical; with damping_law coefficients: N s/m, N m s/rad");
+    dof.damping->setToolTip("damping ratio, 1 is critical; with the law 'coefficients': N s/m, N m s/rad");
     grid->addWidget(dof.on, 2 * i, 0);
     grid->addWidget(dof.stiffness, 2 * i, 1);
     grid->addWidget(new QLabel("  damping", this), 2 * i + 1, 0);

@@ -8,7 +8,7 @@
 
 namespace spring_workbench::dynamics {
 
-/// State of the held body in the active strain coordinates. rod::ShapeModel says their units.
+/// Strain state of the held body, in the active coordinates or (`full`) in all. Units: rod::ShapeModel.
 struct StrainState {
   rod::StrainVector q;      ///< strain coordinates
   rod::StrainVector q_dot;  ///< rates of the coordinates, each in the unit of its coordinate per second

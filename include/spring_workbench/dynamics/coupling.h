@@ -95,8 +95,8 @@ class Couplings {
 
   /// Attaches these couplings in place of the present ones. Returns whether the couplings or their laws have changed.
   bool attach(const std::vector<Attached>& couplings);
-  /// Detaches all but the `first` first couplings until the next attach(). Attaching them again is no change.
-  void keep(std::size_t first) { attached_.resize(std::min(first, attached_.size())); }
+  /// Detaches all but the first `n` couplings until the next attach(). Attaching them again is no change.
+  void keep_first(std::size_t n) { attached_.resize(std::min(n, attached_.size())); }
   bool empty() const { return attached_.empty(); }  ///< whether no coupling is attached
 
   /// Computes the motions of the handle relative to the frames at time `t` [s].

@@ -16,16 +16,16 @@ enum class OnLoss {
 };
 const std::vector<std::string>& names_of(OnLoss);  ///< words for the treatments in settings
 
-/// Settings by which the samples of a tracker are accepted, filtered and followed. Their keys begin with `input.`.
+/// How the samples of a tracker are accepted, filtered and followed. Keys: `input.…`; ranges: input_descriptions().
 struct InputSettings {
   double quaternion_tolerance = 0.1;  ///< `quaternion_tolerance`: largest difference of |q| from 1
   double max_distance = 1000.0;       ///< `max_distance` [m]: largest distance from the origin of the tracker's frame
   double max_speed = 10.0;            ///< `max_speed` [m/s]: largest speed between samples
   double max_turn_rate = 50.0;        ///< `max_turn_rate` [rad/s]: largest rate of turn between samples
   int accept_after = 5;               ///< `accept_after`: number of consecutive samples that make a relocation
-  double origin_radius = 1e-3;      ///< `origin_radius` [m]: a jump to the identity this close is "out of view"; 0: off
+  double origin_radius = 1e-3;      ///< `origin_radius` [m]: a jump this close to the identity is "out of view"; 0: off
   double origin_angle = 0.02;       ///< `origin_angle` [rad]: largest rotation of such a jump from the identity
-  double min_cutoff = 0.0;          ///< `smoothing.min_cutoff` [Hz]: cut-off of the jitter filter at rest; 0: off
+  double min_cutoff = 0.0;          ///< `smoothing.min_cutoff` [Hz]: cut-off of the One Euro filter at rest; 0: off
   double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: increase of the cut-off with the speed
   double beta_angle = 1.0;          ///< `smoothing.beta_angle` [Hz per rad/s]: increase with the rate of turn
   double dead_band_distance = 0.0;  ///< `dead_band.distance` [m]: a hand that moves by less rests; 0: off

@@ -43,7 +43,7 @@ class StateArchive {
 
   /// Saves or restores the size of a container with at least one word per element; `present` is its present size.
   /// Returns the size. Throws std::out_of_range if fewer words are left.
-  std::size_t size(std::size_t present) {
+  std::size_t archive_size(std::size_t present) {
     archive(present);
     if (is_restoring() && present > source_->size() - next_) throw std::out_of_range("it ends too early");
     return present;
@@ -54,7 +54,8 @@ class StateArchive {
     if (!is_restoring()) {
       words_.push_back(word);
     } else {
-      word = source_->at(next_++);
+      if (next_ >= source_->size()) throw std::out_of_range("it ends too early");
+      word = (*source_)[next_++];
     }
   }
   void archive_numbers(double* numbers, Eigen::Index count) {
@@ -65,7 +66,7 @@ class StateArchive {
       words_.resize(words_.size() + size);
       std::memcpy(&words_[words_.size() - size], numbers, size * sizeof(double));
     } else {
-      if (size > source_->size() - next_) throw std::out_of_range("state: ends too early");
+      if (size > source_->size() - next_) throw std::out_of_range("it ends too early");
       std::memcpy(numbers, &(*source_)[next_], size * sizeof(double));
       next_ += size;
     }
@@ -137,7 +138,7 @@ class StateArchive {
   }
   template <typename List>
   void archive_list(List& list) {
-    list.resize(size(list.size()));
+    list.resize(archive_size(list.size()));
     for (auto& value : list) archive(value);
   }
   template <typename T>

@@ -13,7 +13,7 @@ namespace spring_workbench::motion {
 /// stylus in the tracker's base frame.
 struct StylusSample : PoseSample {
   bool button = false;           ///< whether the grasp button is down
-  std::size_t hand = 0;          ///< number of the stylus, from 0
+  std::size_t hand = 0;          ///< number of the hand, from 0
   double quaternion_norm = 1.0;  ///< length of the quaternion from which `X` was made, for hand_input::InputFilter
 };
 

@@ -40,7 +40,7 @@ struct SimulationSettings {
   int impact_bisections = 8;             ///< key `impact_bisections`, 0 … 30: to find an impact; 0: compute its time
 };
 
-/// Throws InputError, with `where`, key, value and rule, if a value is not allowed, by its key or together with others.
+/// Throws InputError, with `where`, key, value and rule, if a value or a combination of values is not allowed.
 void validate(const SimulationSettings& settings, const std::string& where);
 
 /// Converts a twist (world axes) to the hand's scales of length and time, for a machine in place of the hand.

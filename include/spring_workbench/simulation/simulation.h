@@ -245,7 +245,7 @@ class Simulation {
   /// Saves the whole state: time, hands with their input and tools, objects, contacts, histories of integrators, edits,
   /// and the settings that can be changed while running. Two saves of one state are equal.
   SimulationState save() const;
-  /// Continues bit-identically from a state that was saved with the same scene and settings. Only objects' names,
+  /// Continues bit-identically from a state that was saved with the same scene and settings. Only bodies' names,
   /// number of styluses, contact mode and shape are compared; if they differ, throws InputError and changes nothing.
   void restore(const SimulationState& state);
   /// Equivalent to restore(other.save()), but faster if scene, settings and edits are the same.

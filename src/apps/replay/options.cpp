@@ -146,7 +146,7 @@ The last line on standard output is one JSON object (null: no number):
   contacts, collision_queries               pairs that began to touch, as seen at the output times; queries for contacts
   substeps                                  steps discarded and repeated as shorter ones
   stops                                     steps in which the fork reached the end of its range
-  steps_fallback                            integrations by an L-stable rule, because the integrator could not
+  steps_fallback                            integrations by an L-stable rule, in place of the integrator
   steps_blocked, steps_unsolved             steps in which an object was blocked; in which a contact stayed unsolved
   steps_rejected                            steps without a usable result: the fork was rigid, or the object blocked
   time_lost                                 [s] during which an object did not follow its equation of motion

@@ -18,7 +18,7 @@ diagnostic_msgs::DiagnosticStatus LostMessages::report(const std::string& name) 
     lost += count;
   }
   if (lost > std::exchange(reported_, lost)) {
-    status.warn("messages were lost: a subscriber's queue was full");
+    status.warn("this node lost messages: its queue was full");
   }
   std::vector<std::string> slow;
   for (const auto& [connection, count] : unsent_.update()) {

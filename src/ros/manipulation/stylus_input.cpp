@@ -131,7 +131,7 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
   const std::string& parent = transform.header.frame_id;
   const std::optional<RigidTransform> X_WP = static_frames_.in_world(parent);
   if (!X_WP) {
-    const std::string rule = parameters_.workbench_frame + ", or tied to it on /tf_static";
+    const std::string rule = parameters_.world_frame + ", or a frame tied to it on /tf_static";
     rejections_.add("unknown frame",
                     place_of(transform) + validation::invalid_value("", "frame_id", frame(parent), rule));
     return false;

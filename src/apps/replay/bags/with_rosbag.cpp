@@ -238,7 +238,7 @@ class BagReader {
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
     validation::refuse(path_, "transform", parent_ + " -> " + child_,
-                       there.empty() ? "a transform of the bag, which has none"
+                       there.empty() ? "a bag with transforms, got none"
                                      : "one of " + validation::join(there) + " (choose with --parent and --child)");
   }
 
