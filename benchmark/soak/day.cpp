@@ -101,7 +101,7 @@ class Day {
  private:
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
-  hand_input::LocalTime now() const { return {t_, attended_}; }
+  hand_input::LocalTime now() const { return {t_, running_}; }
 
   void begin_life() {
     ++result_.lives;
@@ -242,7 +242,7 @@ class Day {
   }
 
   void cycle() {
-    attended_ += std::min(kTick, 0.01);
+    running_ += std::min(kTick, 0.01);
     live::HandEvents events;
     for (std::size_t number = 0; number < hands_.size(); ++number) {
       for (const auto& [stamp, record] : std::exchange(hands_[number].waiting, {})) {
@@ -320,7 +320,7 @@ class Day {
   std::unique_ptr<live::Checkpoint> checkpoint_;
   std::string text_;  ///< of the checkpoint: of one size, so that the heap in use at the start of a life is, too
   std::unique_ptr<live::Replayer> replayer_;
-  double t_ = 0.0, attended_ = 0.0, host_set_ = 0.0, sender_set_ = 0.0, stands_until_ = 0.0, next_line_ = 0.0;
+  double t_ = 0.0, running_ = 0.0, host_set_ = 0.0, sender_set_ = 0.0, stands_until_ = 0.0, next_line_ = 0.0;
   DayResult result_;
 };
 

@@ -20,13 +20,15 @@ constexpr int check_iterations = 10;
 /// solve the problem must reduce it to be taken. Larger: iterations that hardly converge are continued, and infeasible
 /// problems get large loads. Test: ContactProblem.WallsThatLeaveNoRoomAreNotPressedApart at 1.
 constexpr double worthwhile_reduction = 0.3;
-/// Number of bodies above which factorising costs more than the finer residual is worth. Test: none: costs alone.
-constexpr std::size_t max_bodies_factorised = 200;
-/// Largest number of alternations for the finer residual. Fewer: Newton's method, which factorises in each iteration,
-/// is needed more often. Test: RigidWorld.StackOfTenStandsAndSleeps at 0.
-constexpr int max_alternations = 60;
-/// The same for the residual that is sufficient. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
-constexpr int max_alternations_unsolved = 120;
+/// Number of bodies above which the finer residual costs more than it is worth. Larger: piles are slower. Test: none:
+/// costs alone.
+constexpr std::size_t max_bodies_finely = 16;
+/// Largest number of alternations for the finer residual. Fewer: stopped bodies are blocked. Test:
+/// Compliant.RestsAtItsWeightTimesTheComplianceWhateverItsShape at 0.
+constexpr int max_fine_alternations = 60;
+/// Largest number of alternations. Fewer: Newton's method, which factorises in each iteration, is needed more often.
+/// Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
+constexpr int max_alternations = 300;
 /// Alternations between two checks of the residual. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 100.
 constexpr int check_every = 5;
 /// Alternations between two changes of the penalty. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 1000.

@@ -7,12 +7,14 @@ namespace spring_workbench::friction {
 using Eigen::Index;
 using Eigen::Matrix3d;
 
-void ContactFactor::set_pattern(const ReducedContacts& contacts) {
+void ContactFactor::set_pattern(const ReducedContacts& contacts, const std::vector<std::size_t>& indices) {
+  indices_ = indices;
   std::vector<Index> sizes;
   for (const auto& body : contacts.bodies()) sizes.push_back(body.size);
   std::vector<Pair> touching;
   for (std::size_t body = 0; body < sizes.size(); ++body) touching.emplace_back(body, body);
-  for (const auto& c : contacts.contacts()) {
+  for (const std::size_t i : indices) {
+    const auto& c = contacts.contacts()[i];
     for (std::size_t p = c.parts_begin; p < c.parts_end; ++p) {
       for (std::size_t q = c.parts_begin; q < c.parts_end; ++q)
         touching.emplace_back(contacts.parts()[p].body, contacts.parts()[q].body);
@@ -58,8 +60,8 @@ void ContactFactor::assemble(const ReducedContacts& contacts, const std::vector<
     for (Index c = 0; c < sizes_[body]; ++c) column_of(body, body, c)[c] = 1.0;
   }
   for (std::size_t i = 0; i < D.size(); ++i) {
-    const auto& contact = contacts.contacts()[i];
-    if (!(contact.scale > 0.0) || D[i].isZero(0.0)) continue;
+    const auto& contact = contacts.contacts()[indices_[i]];
+    if (D[i].isZero(0.0)) continue;
     for (std::size_t q = contact.parts_begin; q < contact.parts_end; ++q) {
       const auto& of_column = contacts.parts()[q];
       const Eigen::Matrix3Xd DJ = D[i] * contacts.jacobian(of_column);

@@ -15,8 +15,8 @@ namespace spring_workbench::friction {
 /// while the graph is the same.
 class ContactFactor {
  public:
-  /// Takes the graph of the contacts.
-  void set_pattern(const ReducedContacts& contacts);
+  /// Takes the graph of the contacts of these indices.
+  void set_pattern(const ReducedContacts& contacts, const std::vector<std::size_t>& indices);
   /// Factors by Cholesky, for symmetric and positive D. Returns false if there is no factor.
   bool factorize(const ReducedContacts& contacts, const std::vector<Eigen::Matrix3d>& D);
   Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const { return cholesky_.solve(right_side); }
@@ -29,6 +29,7 @@ class ContactFactor {
   void make_matrix(const ReducedContacts& contacts);
   void assemble(const ReducedContacts& contacts, const std::vector<Eigen::Matrix3d>& D);
 
+  std::vector<std::size_t> indices_;    ///< of the contacts
   std::vector<Eigen::Index> sizes_;     ///< of the bodies
   std::vector<Pair> touching_;          ///< pairs of bodies, in both orders and each with itself, sorted
   std::map<Pair, Eigen::Index> above_;  ///< entries above the block of the second body in the columns of the first

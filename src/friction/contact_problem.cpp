@@ -38,7 +38,7 @@ ContactProblem::Result ContactProblem::solve(double share, double enough) {
   const double largest = contacts.prepare();
   const double wanted = std::clamp(share * largest, 1e-3 * enough, 0.1 * enough);
   enough = std::max(wanted, std::min(enough, sufficient_share * largest));
-  const bool many = contacts.bodies().size() > max_bodies_factorised;
+  const bool many = contacts.bodies().size() > max_bodies_finely;
   double before = std::numeric_limits<double>::infinity();
   for (bool go_on = true; go_on;) {
     ++result.iterations;
@@ -51,8 +51,8 @@ ContactProblem::Result ContactProblem::solve(double share, double enough) {
   result.residual = contacts.residual();
   if (!(result.residual < std::numeric_limits<double>::infinity())) {
     contacts.set_loads(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * contacts.contacts().size())));
-  } else if (result.residual > (many ? enough : wanted)) {
-    implementation_->joint.improve(contacts, many ? enough : wanted, enough, result);
+  } else if (const double target = many ? enough : wanted; result.residual > target) {
+    implementation_->joint.improve(contacts, target, enough, result);
   }
   return result;
 }

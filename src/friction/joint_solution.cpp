@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "constants.h"
 
@@ -79,15 +80,43 @@ Vector3d project_by_coulomb(const Vector3d& x, double friction, Matrix3d* slope)
 
 template <typename Function>
 void JointSolution::each(const Function& function) const {
-  const auto& all = contacts_->contacts();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].scale > 0.0) function(all[i], static_cast<Index>(3 * i));
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    function(contacts_->contacts()[active_[k]], static_cast<Index>(3 * k));
+}
+
+bool JointSolution::activate() {
+  const std::vector<std::size_t> before = std::exchange(active_, {});
+  for (std::size_t i = 0; i < contacts_->contacts().size(); ++i) {
+    const auto& c = contacts_->contacts()[i];
+    if (!(c.scale > 0.0)) continue;
+    if (std::binary_search(before.begin(), before.end(), i) ||
+        !is_open(c, contacts_->motion(c, contacts_->reduced()))) {
+      active_.push_back(i);
+    }
   }
+  return active_.size() > before.size();
+}
+
+VectorXd JointSolution::loads() const {
+  VectorXd loads(static_cast<Index>(3 * active_.size()));
+  each([&](const auto& c, Index i) { loads.segment<3>(i) = c.load; });
+  return loads;
+}
+
+void JointSolution::set_loads(const VectorXd& loads) {
+  VectorXd all = VectorXd::Zero(static_cast<Index>(3 * contacts_->contacts().size()));
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    all.segment<3>(static_cast<Index>(3 * active_[k])) = loads.segment<3>(static_cast<Index>(3 * k));
+  contacts_->set_loads(all);
 }
 
 double JointSolution::offer(const VectorXd& loads) {
-  contacts_->set_loads(loads);
-  const double residual = contacts_->residual();
+  set_loads(loads);
+  double residual = 0.0;
+  each([&](const auto& c, Index) {
+    const double off = residual_at(c, contacts_->motion(c, contacts_->reduced()));
+    if (!(off <= residual)) residual = off;  // one that is no number, too
+  });
   const double most = residual <= enough_ ? 1.0 : worthwhile_reduction;
   if (residual < most * result_->residual) {
     result_->residual = residual;
@@ -101,17 +130,31 @@ void JointSolution::improve(ReducedContacts& contacts, double wanted, double eno
   result_ = &result;
   wanted_ = wanted;
   enough_ = enough;
-  best_ = contacts.loads();
-  factor_.set_pattern(contacts);
-  alternate();
-  if (result.residual > enough) linearise();
-  contacts.set_loads(best_);
+  active_.clear();
+  VectorXd best = contacts.loads();
+  double least = result.residual;
+  while (result.residual > wanted && activate()) {
+    best_ = loads();
+    factor_.set_pattern(contacts, active_);
+    alternate();
+    if (result.residual > enough) linearise();
+    set_loads(best_);
+    result.residual = contacts.residual();
+    if (!(result.residual < least)) continue;
+    least = result.residual;
+    best = contacts.loads();
+  }
+  result.residual = least;
+  contacts.set_loads(best);
+}
+
+double JointSolution::target_residual(int alternation) const {
+  return alternation < max_fine_alternations ? wanted_ : enough_;
 }
 
 bool JointSolution::factorize(double penalty) {
   ++result_->factors;
-  return factor_.factorize(*contacts_,
-                           std::vector<Matrix3d>(contacts_->contacts().size(), penalty * Matrix3d::Identity()));
+  return factor_.factorize(*contacts_, std::vector<Matrix3d>(active_.size(), penalty * Matrix3d::Identity()));
 }
 
 // --- Alternating directions: motions z in the dual cones on one side, u by the bodies on the other. The iteration is
@@ -155,10 +198,6 @@ bool JointSolution::adapt_penalty(Alternation& at, const VectorXd& last_motion, 
   return true;
 }
 
-double JointSolution::target_residual(int alternation) const {
-  return alternation < max_alternations ? wanted_ : enough_;
-}
-
 void JointSolution::alternate() {
   Alternation at;
   at.w.setZero(best_.size());
@@ -172,7 +211,7 @@ void JointSolution::alternate() {
   Acceleration acceleration;
   VectorXd plain, last_motion = at.z, reduced;
   double last = infinity;
-  for (int k = 0; k < max_alternations_unsolved && result_->residual > target_residual(k); ++k) {
+  for (int k = 0; k < max_alternations && result_->residual > target_residual(k); ++k) {
     ++result_->iterations;
     each([&](const auto& c, Index i) {
       at.load.segment<3>(i) = into_cone(-at.w.segment<3>(i), c.friction);
@@ -225,7 +264,7 @@ VectorXd JointSolution::newton_residual(const VectorXd& reduced, VectorXd& loads
 }
 
 bool JointSolution::iterate_newton(VectorXd& reduced, VectorXd& loads) {
-  std::vector<Matrix3d> slopes(contacts_->contacts().size(), Matrix3d::Zero());
+  std::vector<Matrix3d> slopes(active_.size(), Matrix3d::Zero());
   double smallest = infinity;
   for (int k = 0; k < max_newton_iterations; ++k) {
     const VectorXd rest = newton_residual(reduced, loads, &slopes);
@@ -262,7 +301,7 @@ void JointSolution::linearise() {
   double smallest = result_->residual;
   int stalled = 0;
   for (int k = 0; k < max_rounds && stalled < max_stalled_rounds && smallest > enough_; ++k) {
-    contacts_->set_loads(loads_);
+    set_loads(loads_);
     VectorXd reduced = contacts_->reduced(), loads = VectorXd::Zero(loads_.size());
     if (!iterate_newton(reduced, loads)) return;
     const double residual = offer(loads);

@@ -15,6 +15,11 @@ class JointSolution {
 
  private:
   struct Alternation;
+  /// Adds the contacts that are not open under the present loads to those that are solved. Returns whether there are
+  /// any.
+  bool activate();
+  Eigen::VectorXd loads() const;
+  void set_loads(const Eigen::VectorXd& loads);
   /// Takes the loads if they solve the problem better than the best so far, or, while none do, if their residual is
   /// much smaller: those of an infeasible problem grow with the penalty while it stalls. Returns their residual.
   double offer(const Eigen::VectorXd& loads);
@@ -36,7 +41,8 @@ class JointSolution {
   ReducedContacts* contacts_ = nullptr;
   ContactProblem::Result* result_ = nullptr;
   double wanted_ = 0.0, enough_ = 0.0;
-  Eigen::VectorXd best_;
+  std::vector<std::size_t> active_;  ///< indices of the contacts that are solved; all others are open
+  Eigen::VectorXd best_;             ///< loads of these, as all that follow
   ContactFactor factor_;
   Eigen::VectorXd loads_;
   double penalty_ = 1.0;

@@ -72,7 +72,7 @@ std::size_t ReducedContacts::add_body(const Eigen::Ref<const MatrixXd>& response
 
 std::size_t ReducedContacts::add_contact(double friction, const Vector3d& motion, const Vector3d& load) {
   contacts_.push_back(
-      {parts_.size(), parts_.size(), friction, motion, load, 0.0, Matrix3d::Zero(), Matrix3d::Zero(), 0.0});
+      {parts_.size(), parts_.size(), friction, motion, load, 0.0, Matrix3d::Zero(), Matrix3d::Zero(), 0.0, false});
   return contacts_.size() - 1;
 }
 
@@ -159,11 +159,12 @@ double ReducedContacts::prepare() {
   return largest;
 }
 
-double ReducedContacts::relax(Contact& c) {
-  Vector3d u = motion(c, reduced_);
-  Vector3d shifted = u;
-  shifted[0] += shift(u, c.friction);
-  const double off = (c.load - into_cone(c.load - shifted, c.friction)).norm() / c.scale;
+double residual_at(const ReducedContacts::Contact& c, Vector3d u) {
+  u[0] += shift(u, c.friction);
+  return (c.load - into_cone(c.load - u, c.friction)).norm() / c.scale;
+}
+
+void ReducedContacts::relax(Contact& c, Vector3d u) {
   Vector3d load = c.load - c.inverse * u;
   const bool sticks = c.inverse(0, 0) > 0.0 && load[0] > 0.0 && load.tail<2>().norm() <= c.friction * load[0];
   if (!sticks) {
@@ -180,16 +181,23 @@ double ReducedContacts::relax(Contact& c) {
   }
   apply(c, load - c.load, reduced_);
   c.load = load;
-  return off;
 }
 
 double ReducedContacts::iterate() {
   double worst = 0.0;
-  for (auto c = contacts_.begin(); c != contacts_.end(); ++c)
-    if (c->scale > 0.0) worst = std::max(worst, relax(*c));
+  for (Contact& c : contacts_) {
+    if (!(c.scale > 0.0)) continue;
+    const Vector3d u = motion(c, reduced_);
+    c.open = is_open(c, u);
+    if (c.open) continue;
+    worst = std::max(worst, residual_at(c, u));
+    relax(c, u);
+  }
   // And back; the last and the first have just been, or will be, relaxed.
-  for (std::size_t i = contacts_.size(); i-- > 2;)
-    if (contacts_[i - 1].scale > 0.0) worst = std::max(worst, relax(contacts_[i - 1]));
+  for (std::size_t i = contacts_.size(); i-- > 2;) {
+    Contact& c = contacts_[i - 1];
+    if (c.scale > 0.0 && !c.open) relax(c, motion(c, reduced_));
+  }
   return worst;
 }
 
@@ -197,9 +205,7 @@ double ReducedContacts::residual() const {
   double worst = 0.0;
   for (const Contact& c : contacts_) {
     if (!(c.scale > 0.0)) continue;
-    Vector3d u = motion(c, reduced_);
-    u[0] += shift(u, c.friction);
-    const double off = (c.load - into_cone(c.load - u, c.friction)).norm() / c.scale;
+    const double off = residual_at(c, motion(c, reduced_));
     if (!(off <= worst)) worst = off;  // one that is no number, too
   }
   return worst;

@@ -37,6 +37,7 @@ class ReducedContacts {
     double scale = 0.0;      ///< of the motion; zero if nothing moves the contact, which then has no load
     Eigen::Matrix3d response, inverse;
     double across;  ///< largest response across the normal
+    bool open;      ///< in the last iteration on the way forward
   };
 
   void clear();
@@ -47,7 +48,7 @@ class ReducedContacts {
   /// motion of a contact that can be moved, without loads; infinite if one is not finite.
   double prepare();
 
-  /// One symmetric Gauss–Seidel iteration; returns the largest residual met.
+  /// One symmetric Gauss–Seidel iteration; returns the largest residual met on the way forward.
   double iterate();
   /// See ContactProblem::Result.
   double residual() const;
@@ -73,7 +74,7 @@ class ReducedContacts {
   void apply(const Contact& contact, const Eigen::Vector3d& load, Eigen::VectorXd& reduced) const;
 
  private:
-  double relax(Contact& contact);
+  void relax(Contact& contact, Eigen::Vector3d motion);
 
   std::vector<Body> bodies_;
   std::vector<Part> parts_;
@@ -82,5 +83,12 @@ class ReducedContacts {
   Eigen::VectorXd reduced_;
   Eigen::Index size_ = 0;
 };
+
+/// Whether a contact that moves by `u` without a load needs none.
+inline bool is_open(const ReducedContacts::Contact& contact, const Eigen::Vector3d& u) {
+  return contact.load[0] == 0.0 && u[0] >= 0.0;
+}
+/// Residual of a contact that moves by `u`.
+double residual_at(const ReducedContacts::Contact& contact, Eigen::Vector3d u);
 
 }  // namespace spring_workbench::friction

@@ -185,26 +185,48 @@ void edge_and_edge(const View& view, const Solid::Edge& a, const Solid::Edge& b)
   }
 }
 
+/// An edge seen from the cylinder `b`.
+struct EdgeView {
+  EdgeView(const View& view, const Solid::Edge& of)
+      : edge(of), start(view.X_BA * of.start), along(view.X_BA.linear() * of.along), end(start + along) {
+    size = along.head<2>().squaredNorm();
+    if (size > 0.0) middle = -start.head<2>().dot(along.head<2>()) / size;
+    across = (start + std::clamp(middle, 0.0, 1.0) * along).head<2>().norm();
+    // A contact is as far from the cylinder as its gap, and beyond an end of the edge by less than beyond().
+    far = 2.0 * std::max(view.reach, view.deepest) + same_place;
+  }
+  bool is_near_height(double height) const {
+    return std::min(start.z(), end.z()) <= height + far && std::max(start.z(), end.z()) >= height - far;
+  }
+  bool is_near(const Cylinder& c) const {
+    return across <= c.radius + far && std::min(start.z(), end.z()) <= 0.5 * c.length + far &&
+           std::max(start.z(), end.z()) >= -0.5 * c.length - far;
+  }
+
+  const Solid::Edge& edge;
+  Vector3d start, along, end;
+  double size = 0.0, middle = 0.0;  ///< squared length across the axis; where it is nearest to the axis, by `along`
+  double across, far;               ///< smallest distance from the axis; distance beyond which nothing touches
+};
+
 /// Contact of an edge with the side of a cylinder, at the edge's point nearest to the axis.
-void edge_and_side(const View& view, const Solid::Edge& edge) {
+void edge_and_side(const View& view, const EdgeView& e) {
   const Cylinder& c = *view.b.cylinder;
-  const Vector3d start = view.X_BA * edge.start, along = view.X_BA.linear() * edge.along;
-  const double size = along.head<2>().squaredNorm();
-  if (!(size > 0.0)) return;
-  const double s = -start.head<2>().dot(along.head<2>()) / size;
-  const Vector3d p = start + s * along;
+  if (!(e.size > 0.0)) return;
+  const double s = e.middle;
+  const Vector3d p = e.start + s * e.along;
   const double across = p.head<2>().norm(), gap = across - c.radius;
-  if (std::max(-s, s - 1.0) * along.norm() > beyond(gap)) return;
+  if (std::max(-s, s - 1.0) * e.along.norm() > beyond(gap)) return;
   if (!(gap < view.reach && gap > -view.deepest) || across == 0.0 || std::abs(p.z()) > 0.5 * c.length) return;
   const Vector3d n(p.x() / across, p.y() / across, 0.0), n_A = view.n_A(n);
-  if (is_supporting(edge.into_left, edge.into_right, -n_A)) view.add(p - gap * n, n, gap);
+  if (is_supporting(e.edge.into_left, e.edge.into_right, -n_A)) view.add(p - gap * n, n, gap);
 }
 
 /// Contact of an edge with a rim of a cylinder, the circle at `height`: where the edge and the tangent at the rim's
 /// point are nearest to each other, from the point at `angle` on.
-void edge_and_rim(const View& view, const Solid::Edge& edge, double height, double angle) {
+void edge_and_rim(const View& view, const EdgeView& e, double height, double angle) {
   const double radius = view.b.cylinder->radius;
-  const Vector3d start = view.X_BA * edge.start, along = view.X_BA.linear() * edge.along;
+  const Vector3d &start = e.start, &along = e.along;
   Vector3d p = Vector3d::Zero(), out = p, cross = p;
   double turn = 1.0, s = 0.0, size2 = 0.0;
   for (int i = 0; i < max_turns && std::abs(turn) > 1e-14; ++i) {
@@ -225,24 +247,23 @@ void edge_and_rim(const View& view, const Solid::Edge& edge, double height, doub
     if (!(gap < view.reach && gap > -view.deepest)) continue;
     if (std::max(-s, s - 1.0) * along.norm() > beyond(gap)) continue;
     if (is_supporting(-out, Vector3d(0.0, 0.0, -std::copysign(1.0, height)), n) &&
-        is_supporting(edge.into_left, edge.into_right, -n_A))
+        is_supporting(e.edge.into_left, e.edge.into_right, -n_A))
       view.add(p, n, gap);
   }
 }
 
 /// The same with both rims: from where the edge goes through the plane of a rim, and where it crosses the side.
-void edge_and_rims(const View& view, const Solid::Edge& edge) {
-  const Vector3d start = view.X_BA * edge.start, along = view.X_BA.linear() * edge.along;
-  if (!grown(view.b.extent, std::max(view.reach, view.deepest)).intersects(Extent(start).extend(start + along))) return;
-  const double radius = view.b.cylinder->radius, size = along.head<2>().squaredNorm();
-  const double middle = size > 0.0 ? -start.head<2>().dot(along.head<2>()) / size : 0.0;
-  const double across = (start + middle * along).head<2>().norm();
-  const double half = size > 0.0 ? std::sqrt(std::max(0.0, radius * radius - across * across) / size) : 0.0;
+void edge_and_rims(const View& view, const EdgeView& e) {
+  const double radius = view.b.cylinder->radius;
+  if (std::max(e.start.head<2>().norm(), e.end.head<2>().norm()) < radius - e.far) return;
+  const double across = (e.start + e.middle * e.along).head<2>().norm();
+  const double half = e.size > 0.0 ? std::sqrt(std::max(0.0, radius * radius - across * across) / e.size) : 0.0;
   for (const double height : {-0.5 * view.b.cylinder->length, 0.5 * view.b.cylinder->length}) {
-    const double through = along.z() != 0.0 ? (height - start.z()) / along.z() : middle;
-    for (const double s : {through, middle - half, middle + half}) {
-      const Vector3d q = start + std::clamp(s, 0.0, 1.0) * along;
-      edge_and_rim(view, edge, height, std::atan2(q.y(), q.x()));
+    if (!e.is_near_height(height)) continue;
+    const double through = e.along.z() != 0.0 ? (height - e.start.z()) / e.along.z() : e.middle;
+    for (const double s : {through, e.middle - half, e.middle + half}) {
+      const Vector3d q = e.start + std::clamp(s, 0.0, 1.0) * e.along;
+      edge_and_rim(view, e, height, std::atan2(q.y(), q.x()));
     }
   }
 }
@@ -256,8 +277,10 @@ void edges_and_edges(const View& view) {
 void edges_and_cylinder(const View& view) {
   if (!view.b.cylinder || view.a.cylinder) return;
   for (const Solid::Edge& edge : view.a.edges) {
-    edge_and_side(view, edge);
-    edge_and_rims(view, edge);
+    const EdgeView e(view, edge);
+    if (!e.is_near(*view.b.cylinder)) continue;
+    edge_and_side(view, e);
+    edge_and_rims(view, e);
   }
 }
 

@@ -20,9 +20,9 @@ void PlayoutClock::sample(double t, const LocalTime& arrival) {
 double PlayoutClock::time_since_arrival(const LocalTime& now) const { return std::max(now.loop - arrival_.loop, 0.0); }
 
 double PlayoutClock::complete_until(const LocalTime& now) const {
-  const bool silent = time_since_arrival(now) > dropout_after_ && now.attended - arrival_.attended > shortest_silence;
+  const bool silent = time_since_arrival(now) > dropout_after_ && now.running - arrival_.running > shortest_silence;
   if (silent && std::isfinite(newest_)) return std::numeric_limits<double>::infinity();
-  const bool buttons_come = now.attended - buttons_arrival_ < shortest_silence;
+  const bool buttons_come = now.running - buttons_arrival_ < shortest_silence;
   return buttons_come ? std::min(before_newest_, buttons_until_) : before_newest_;
 }
 
@@ -30,7 +30,7 @@ double PlayoutClock::rests_until(const LocalTime& now) const { return newest_ + 
 
 void PlayoutClock::buttons(double t, const LocalTime& arrival) {
   buttons_until_ = std::max(buttons_until_, t);
-  buttons_arrival_ = arrival.attended;
+  buttons_arrival_ = arrival.running;
 }
 
 void PlayoutClock::clear() {

@@ -54,7 +54,7 @@ StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
   }
   StampResult result = StampResult::fits;
   if (own_age > max_age_) {
-    const bool held_up = own_age - seconds(now.unattended - unattended_) <= max_age_;
+    const bool held_up = own_age - seconds(now.not_running - not_running_) <= max_age_;
     result = held_up ? StampResult::held_up : StampResult::too_old;
   }
   if (own_age < smallest_age_ - clock_slip) result = StampResult::from_the_future;
@@ -71,7 +71,7 @@ StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
   smallest_age_ = std::min(own_age, smallest_age_ + clock_drift * seconds(now.now - arrival_));
   newest_ = std::max(*newest_, stamp);
   arrival_ = now.now;
-  unattended_ = now.unattended;
+  not_running_ = now.not_running;
   unmatched_.clear();
   return result;
 }
@@ -92,7 +92,7 @@ StampResult StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
   smallest_age_ = first_age;
   newest_ = stamp;
   arrival_ = now.now;
-  unattended_ = now.unattended;
+  not_running_ = now.not_running;
   return StampResult::fits;
 }
 

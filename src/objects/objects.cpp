@@ -175,9 +175,11 @@ bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::si
     states_[o].in_contact = !rows[0].empty();
     objects_[o].rows = rows[i];
     objects_[o].slow_since = now + h;
-    contacts_.note(o, states_, reported[i], h);
     in_contact_.erase(o);
     stepped_objects.insert(o);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {  // slip is relative, so both states come first
+    if (stepped_objects.count(both[i]) != 0) contacts_.note(both[i], states_, reported[i], h);
   }
   return true;
 }

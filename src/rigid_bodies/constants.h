@@ -26,6 +26,9 @@ constexpr double asleep_after = 0.5;
 /// Fraction of a penetration between free bodies that is corrected in a step. Larger: piles tremble. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 2.
 constexpr double penetration_share = 0.2;
+/// The same between a free and a driven body, in `recovery_time`. Smaller: what is driven by a rising force goes
+/// deeper. Test: ContactTrials.APegOfABoxGoesInWithATenthOfAMillimetre at 0.2.
+constexpr double driven_penetration_share = 0.4;
 /// [m] that a body may move towards shapes other than boxes without a sweep; on a path on which contact is allowed,
 /// between two looks at how deep they are. Larger: deeper penetration; smaller: blocked more often, and slower. Test:
 /// none: no value tried makes one fail.
@@ -59,7 +62,7 @@ constexpr double solved_to = 1e-6;
 constexpr double rest_residual = 4e-8;
 /// The same as a fraction of the largest motion, up to `solved_to`. Larger: less exact. Test:
 /// ContactTrials.APegOfABoxGoesInWithATenthOfAMillimetre at 0.1.
-constexpr double residual_share = 1e-3;
+constexpr double residual_share = 3e-3;
 /// The same as a fraction of the largest motion without loads, if it takes few iterations to get there. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 0.1.
 constexpr double solved_share = 1e-4;

@@ -49,8 +49,7 @@ DrivenSolver::Contact DrivenSolver::make_contact(int index, const btContactSolve
   contact.gap = contact.point->getDistance() + info.m_linearSlop;
   contact.motion = motion(contact, false);
   // Bullet's own is by Newton's law of restitution.
-  if (drives(contact) || contact.point->m_combinedRestitution > 0.0)
-    contact.missing[0] = missing_along_normal(contact, info);
+  if (drives(contact) || contact.point->m_combinedRestitution > 0.0) contact.missing[0] = missing_along_normal(contact);
   contact.restitution = restitution(contact);
   contact.closes_at = time_to_close(contact.gap, -motion(contact, true)[0], gravity_);
   return contact;
@@ -83,13 +82,12 @@ void DrivenSolver::obey_surfaces(std::vector<Contact>& contacts) {
   }
 }
 
-double DrivenSolver::missing_along_normal(const Contact& contact, const btContactSolverInfo& info) const {
+double DrivenSolver::missing_along_normal(const Contact& contact) const {
   const double left = contact.gap / h_;
   if (!drives(contact)) return -contact.motion[0] - std::max(0.0, left);  // a penetration is undone by Bullet
   // A driven body's velocity is its path over the step. A penetration is undone slowly, or it would become a speed.
-  const double undone =
-      (pushes(contact.a) || pushes(contact.b) ? info.m_erp2 : 1.0) * std::min(1.0, h_ / recovery_time);
-  return -contact.motion[0] - (contact.gap < 0.0 ? undone : 1.0) * left;
+  const double share = pushes(contact.a) || pushes(contact.b) ? driven_penetration_share : 1.0;
+  return -contact.motion[0] - (contact.gap < 0.0 ? share * std::min(1.0, h_ / recovery_time) : 1.0) * left;
 }
 
 double DrivenSolver::restitution(const Contact& contact) const {
@@ -165,7 +163,7 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(std::vector<Contact>& contac
   solve(closed_ones, true, change);
   for (const Contact& c : closed_ones) {
     const Matrix3d axes = c.J_a.isZero(0.0) ? Matrix3d(-c.J_b.leftCols<3>()) : Matrix3d(c.J_a.leftCols<3>());
-    impacts_.emplace_back(c.point, axes.transpose() * c.impulse);
+    impacts_[c.point] = axes.transpose() * c.impulse;
     load_driven(c, c.impulse, &DrivenBody::impact_W);
     if (drives(c) || c.restitution > 0.0) surfaces_.stop(c.surface);
   }
@@ -177,10 +175,7 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(std::vector<Contact>& contac
 }
 
 Vector3d DrivenSolver::impact_on(const btManifoldPoint& point) const {
-  Vector3d sum = Vector3d::Zero();
-  for (const auto& [stopped, impulse_W] : impacts_)
-    if (stopped == &point) sum += impulse_W;
-  return sum;
+  return impacts_.count(&point) != 0 ? impacts_.at(&point) : Vector3d(Vector3d::Zero());
 }
 
 void DrivenSolver::load_driven(const Contact& contact, const Vector3d& load, Wrench DrivenBody::*to) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -50,7 +51,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   bool closes_fast(const Contact& contact) const {  ///< above the speed at which it bounces
     return -motion(contact, true)[0] > std::max(scene::rest_speed, contact.gap / h_);
   }
-  double missing_along_normal(const Contact& contact, const btContactSolverInfo& info) const;
+  double missing_along_normal(const Contact& contact) const;
   double restitution(const Contact& contact) const;
   Vector6d velocity(std::size_t solver_body, bool at_start) const;
   Vector3d motion(const Contact& contact, bool at_start) const;
@@ -76,7 +77,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   void hand_back(const std::vector<Contact>& contacts, const std::vector<Vector6d>& change);
 
   std::vector<Driven> driven_;
-  std::vector<std::pair<const btManifoldPoint*, Vector3d>> impacts_;  ///< see impact_on()
+  std::unordered_map<const btManifoldPoint*, Vector3d> impacts_;  ///< see impact_on()
   std::vector<bodies::FreeMotion> motions_;
   double h_ = 1.0;
   double enough_ = 0.0;  ///< residual to which contacts are solved [m/s]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <utility>
 
 #include "constants.h"
@@ -40,8 +41,11 @@ bool read_arguments(const std::string& text, std::vector<double>& numbers) {
 
 PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples, const std::string& name) {
   for (const motion::StylusSample& sample : samples) {
-    if (!(sample.X.translation().cwiseAbs().maxCoeff() < farthest_played)) {
-      validation::refuse(name, "position at " + std::to_string(sample.t) + " s",
+    const Vector3d& p = sample.X.translation();
+    if (!(p.cwiseAbs().maxCoeff() < farthest_played)) {
+      std::ostringstream text;
+      text << p.transpose();
+      validation::refuse(name, "position at " + std::to_string(sample.t) + " s", text.str(),
                          "coordinates between -9.99 and 9.99 m");
     }
     if (samples_.empty() || sample.t > samples_.back().t) samples_.push_back(sample);

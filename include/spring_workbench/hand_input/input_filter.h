@@ -50,7 +50,7 @@ struct AcceptedInput {
 ///
 ///     hand_input::InputFilter filter(simulation, {});
 ///     while (running()) {
-///       const hand_input::LocalTime now{seconds(), attended_seconds()};  // by two clocks: see LocalTime
+///       const hand_input::LocalTime now{seconds(), running_seconds()};  // by two clocks: see LocalTime
 ///       while (const std::optional<hand_input::RawSample> raw = receive()) filter.push_stylus(*raw, X_WP, now);
 ///       while (const std::optional<double> t = filter.next_target(now)) filter.advance_to(*t);
 ///     }

@@ -12,7 +12,7 @@ namespace spring_workbench::hand_input {
 /// the messages, not on when they are read.
 ///
 /// A hand that has been silent for longer than `dropout_after` rests, and its input counts as complete. The silence
-/// must also have lasted 0.2 s of attended time, so that a bag played quickly or a process that was stopped does not
+/// must also have lasted 0.2 s of running time, so that a bag played quickly or a process that was stopped does not
 /// look like a lost hand. No common clock with the tracker is needed, because only intervals of the local clock count.
 class PlayoutClock {
  public:
@@ -43,7 +43,7 @@ class PlayoutClock {
   double before_newest_ = -std::numeric_limits<double>::infinity();
   LocalTime arrival_;
   double buttons_until_ = -std::numeric_limits<double>::infinity();
-  double buttons_arrival_ = -std::numeric_limits<double>::infinity();  ///< in attended time
+  double buttons_arrival_ = -std::numeric_limits<double>::infinity();  ///< in running time
   double interval_ = 0.0;                                              ///< smoothed time between samples [s]
 };
 

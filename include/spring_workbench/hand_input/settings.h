@@ -18,22 +18,27 @@ const std::vector<std::string>& names_of(OnLoss);  ///< words for the treatments
 
 /// How the samples of a tracker are accepted, filtered and followed. Keys: `input.…`; ranges: input_descriptions().
 struct InputSettings {
-  double quaternion_tolerance = 0.1;  ///< `quaternion_tolerance`: largest difference of |q| from 1
-  double max_distance = 1000.0;       ///< `max_distance` [m]: largest distance from the origin of the tracker's frame
-  double max_speed = 10.0;            ///< `max_speed` [m/s]: largest speed between samples
-  double max_turn_rate = 50.0;        ///< `max_turn_rate` [rad/s]: largest rate of turn between samples
-  int accept_after = 5;               ///< `accept_after`: number of consecutive samples that make a relocation
-  double origin_radius = 1e-3;      ///< `origin_radius` [m]: a jump this close to the identity is "out of view"; 0: off
-  double origin_angle = 0.02;       ///< `origin_angle` [rad]: largest rotation of such a jump from the identity
-  double min_cutoff = 0.0;          ///< `smoothing.min_cutoff` [Hz]: cut-off of the One Euro filter at rest; 0: off
-  double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: increase of the cut-off with the speed
-  double beta_angle = 1.0;          ///< `smoothing.beta_angle` [Hz per rad/s]: increase with the rate of turn
-  double dead_band_distance = 0.0;  ///< `dead_band.distance` [m]: a hand that moves by less rests; 0: off
-  double dead_band_angle = 0.0;     ///< `dead_band.angle` [rad]: a hand that turns by less rests; 0: off
-  OnLoss on_loss = OnLoss::freeze;  ///< `on_loss`: treatment of the held object when its hand is lost
-  double loss_timeout = 2.0;        ///< `loss_timeout` [s]: time without samples after which a hand is lost
-  double reacquisition_speed = 0.5;      ///< `reacquisition_speed` [m/s]: speed of catching up, beyond the hand's
-  double reacquisition_turn_rate = 2.0;  ///< `reacquisition_turn_rate` [rad/s]: turn rate, beyond the hand's
+  /// Key `quaternion_tolerance`, 0 … 0.99: largest difference of |q| from 1.
+  double quaternion_tolerance = 0.1;
+  /// Key `max_distance` [m], 1e-3 … 1e6: largest distance from the origin of the tracker's frame.
+  double max_distance = 1000.0;
+  double max_speed = 10.0;      ///< key `max_speed` [m/s], > 0: largest speed between samples
+  double max_turn_rate = 50.0;  ///< key `max_turn_rate` [rad/s], > 0: largest rate of turn between samples
+  int accept_after = 5;         ///< key `accept_after`, 1 … 10,000: consecutive samples that make a relocation
+  /// Key `origin_radius` [m], 0 … 1: a jump that ends this close to the identity means "out of view"; 0: off.
+  double origin_radius = 1e-3;
+  double origin_angle = 0.02;  ///< key `origin_angle` [rad], 0 … 3.15: its largest rotation from the identity
+  /// Key `smoothing.min_cutoff` [Hz], 0 … 10,000: cut-off frequency of the One Euro filter at rest; 0: off.
+  double min_cutoff = 0.0;
+  double beta = 5.0;        ///< key `smoothing.beta` [Hz per m/s], 0 … 1e6: increase of the cut-off with the speed
+  double beta_angle = 1.0;  ///< key `smoothing.beta_angle` [Hz per rad/s], 0 … 1e6: increase with the rate of turn
+  double dead_band_distance = 0.0;  ///< key `dead_band.distance` [m], 0 … 0.1: a hand that moves by less rests; 0: off
+  double dead_band_angle = 0.0;     ///< key `dead_band.angle` [rad], 0 … 0.5: a hand that turns by less rests; 0: off
+  OnLoss on_loss = OnLoss::freeze;  ///< key `on_loss`: treatment of the held object when its hand is lost
+  double loss_timeout = 2.0;        ///< key `loss_timeout` [s], > 0: time without samples after which a hand is lost
+  /// Key `reacquisition_speed` [m/s], > 0: speed of catching up with a hand that is back, beyond its own.
+  double reacquisition_speed = 0.5;
+  double reacquisition_turn_rate = 2.0;  ///< key `reacquisition_turn_rate` [rad/s], > 0: rate of turn likewise
 };
 
 /// Description of one key; see input_descriptions().

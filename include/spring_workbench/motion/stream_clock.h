@@ -11,9 +11,9 @@ namespace spring_workbench::motion {
 
 /// A moment by the local wall clock [ns since 1970].
 struct WallMoment {
-  std::int64_t now = 0;         ///< time without steps, as if the clock had never been set
-  std::int64_t steps = 0;       ///< total of the steps by which it has been set: the clock shows `now + steps`
-  std::int64_t unattended = 0;  ///< total of the times in which this process did not run [ns]
+  std::int64_t now = 0;          ///< time without steps, as if the clock had never been set
+  std::int64_t steps = 0;        ///< total of the steps by which it has been set: the clock shows `now + steps`
+  std::int64_t not_running = 0;  ///< total of the times in which this process did not run [ns]
 };
 
 /// Removes the steps from a wall clock. A change relative to the steady clock by more than 0.1 s between two readings
@@ -85,7 +85,7 @@ class StreamClock {
   std::int64_t offset_ = 0;             ///< stamps minus local times [ns]
   std::optional<std::int64_t> newest_;  ///< stamp
   std::int64_t arrival_ = 0;            ///< arrival of that message [ns]
-  std::int64_t unattended_ = 0;         ///< WallMoment::unattended then [ns]
+  std::int64_t not_running_ = 0;        ///< WallMoment::not_running then [ns]
   double smallest_age_ = 0.0;           ///< smallest recent age, increasing at clock_drift [s]
   std::deque<Stamped> unmatched_;       ///< messages that did not fit since the newest one that did
   std::size_t steps_ = 0;

@@ -19,7 +19,7 @@ using StrainMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_strain_coordinates, max_strain_coordinates>;
 /// A vector [x; y; z] per strain coordinate, one in each column.
 using StrainJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_strain_coordinates>;
-/// That of a twist, [linear; angular].
+/// A twist [linear; angular] per strain coordinate, one in each column.
 using TwistJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates>;
 
 /// Pose of the fork's tip E in the handle frame H and its motion with the strain; all vectors in H axes.

@@ -36,7 +36,7 @@ struct SimulationSettings {
   tools::LimitSettings limit;                 ///< keys `limit.…`
   tools::GraspSettings grasp;  ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;  ///< key `dropout_after` [s], > 0: longest gap between samples that is interpolated
-  double external_wrench_timeout = 0.1;  ///< key of this name [s], 1e-3 … 10: how long a wrench acts
+  double external_wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10: how long a wrench acts
   int impact_bisections = 8;             ///< key `impact_bisections`, 0 … 30: to find an impact; 0: compute its time
 };
 

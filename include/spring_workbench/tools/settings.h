@@ -27,18 +27,19 @@ inline std::vector<std::string> names_of(Calibration) { return {"none", "object"
 
 /// Deformation, under the weight of an object, of a fork that is calibrated to it (paper, sections 3.1 and 3.2).
 struct ObjectGoal {
-  /// Key `calibration.object.sag`: extension of the hanging fork and deflection of the level one, as fractions of L.
+  /// Key `calibration.object.sag`, 1e-3 … 0.6: extension of the hanging and deflection of the level fork / its length.
   double sag = 0.1;
-  /// Key `calibration.object.twist` [rad]: torsion by an object as dense as water at a lever of its radius of gyration.
+  /// Key `calibration.object.twist` [rad], 1e-3 … 1.5: torsion by an object as dense as water at a lever of its radius
+  /// of gyration.
   double twist = 0.35;
 };
 
 /// Deformation, under the weight of the heaviest object, of the fork that serves a whole scene (paper, section 4).
 struct WorldGoal {
-  double stretch = 0.3;  ///< key `calibration.world.stretch`: extension of the hanging fork, as a fraction of L
-  double bend = 0.4;     ///< key `calibration.world.bend`: deflection of the level fork's tip, as a fraction of L
-  double twist = 0.3;    ///< key `calibration.world.twist` [rad]: torsion at a lever of the object's radius of gyration
-  std::optional<double> heaviest;  ///< key `calibration.world.heaviest` [kg]; absent: the heaviest mass of the scene
+  double stretch = 0.3;  ///< key `calibration.world.stretch`, 1e-3 … 3: extension of the hanging fork / its length
+  double bend = 0.4;     ///< key `calibration.world.bend`, 1e-3 … 0.6: deflection of the level fork / its length
+  double twist = 0.3;  ///< key `calibration.world.twist` [rad], 1e-3 … 1: torsion at the object's radius of gyration
+  std::optional<double> heaviest;  ///< key `calibration.world.heaviest` [kg], 1e-6 … 1e6; absent: that of the scene
 };
 
 /// Motion of an object after its release: it keeps its velocity (thrown) or starts from rest (dropped).

@@ -12,9 +12,9 @@ constexpr double clock_poll = 1e-3;
 /// Maximum wait for a simulated clock that has stopped [s]. If longer, callbacks wait longer while a bag is paused.
 /// Test: none: only the node's responses get slower.
 constexpr double stopped_clock_timeout = 0.1;
-/// Maximum increase of attended time by one reading of the clock [s]. If longer, messages that wait while the machine
+/// Maximum increase of running time by one reading of the clock [s]. If longer, messages that wait while the machine
 /// is busy count as silence. Test: faults_test.py::test_after_a_stopped_processor_time_is_the_hands_again.
-constexpr double longest_attended = 0.01;
+constexpr double max_running_increase = 0.01;
 /// Time between the readings of two clocks above which both are read again [ns]. If longer, stamps jitter more. Test:
 /// none: it only matters if the process is interrupted.
 constexpr std::int64_t clocks_apart = 50'000;

@@ -43,13 +43,13 @@ void sleep_until_simulated(double t) {
   }
 }
 
-double attended_time(double wall) {
+double running_time(double wall) {
   static std::mutex mutex;
-  static double last = wall, attended = 0.0;
+  static double last = wall, running = 0.0;
   const std::lock_guard<std::mutex> lock(mutex);
-  attended += std::clamp(wall - last, 0.0, longest_attended);
+  running += std::clamp(wall - last, 0.0, max_running_increase);
   last = std::max(last, wall);
-  return attended;
+  return running;
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ double loop_time() { return local_time().loop; }
 
 hand_input::LocalTime local_time() {
   const double wall = steady_time();
-  return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, attended_time(wall)};
+  return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, running_time(wall)};
 }
 
 motion::WallMoment wall_moment() {
@@ -69,7 +69,7 @@ motion::WallMoment wall_moment() {
   if (ros::Time::isSimTime()) return {reading.ros, 0};
   motion::WallMoment moment = clock.read(reading.ros, reading.steady);
   const hand_input::LocalTime now = local_time();
-  moment.unattended = std::llround(1e9 * (now.loop - now.attended));
+  moment.not_running = std::llround(1e9 * (now.loop - now.running));
   return moment;
 }
 
@@ -101,10 +101,10 @@ void Alarm::sleep_until(double t) {
   const bool simulated = ros::Time::isSimTime();
   const double give_up = steady_time() + stopped_clock_timeout, begin = loop_time();
   std::unique_lock<std::mutex> lock(mutex_);
-  // Sleep in slices, because a simulated clock has to be polled, and time counts as attended only while it is.
+  // Sleep in slices, because a simulated clock has to be polled, and time counts as running only while it is.
   for (double now = begin; !rung_ && now < t && ros::ok(); now = loop_time()) {
     if (simulated && (now < begin || steady_time() >= give_up)) break;
-    condition_.wait_for(lock, duration<double>(simulated ? clock_poll : std::min(t - now, longest_attended)));
+    condition_.wait_for(lock, duration<double>(simulated ? clock_poll : std::min(t - now, max_running_increase)));
   }
   rung_ = false;
 }

@@ -16,7 +16,7 @@ std::optional<ros::Time> SimulatedClock::moment_of(const ros::Time& stamp, const
       !stream.newest.isZero() && (stream.newest - stamp).toSec() > slip && (stream.newest - now).toSec() > slip;
   if (!jumped_ && (clock_jumped || stamps_jumped)) {
     jumped_ = true;
-    jumped_at_ = local_time().attended;
+    jumped_at_ = local_time().running;
   }
   if (!jumped_) last_now_ = now;
   const bool continues =
@@ -25,7 +25,7 @@ std::optional<ros::Time> SimulatedClock::moment_of(const ros::Time& stamp, const
   return last_now_;
 }
 
-bool SimulatedClock::is_waiting() const { return local_time().attended - jumped_at_ < jump_timeout; }
+bool SimulatedClock::is_waiting() const { return local_time().running - jumped_at_ < jump_timeout; }
 
 double SimulatedClock::restart() {
   const ros::Time now = ros::Time::now();

@@ -87,7 +87,7 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
 
 bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
-  if (!sender_.accepts(sender, ros_common::local_time().attended)) {
+  if (!sender_.accepts(sender, ros_common::local_time().running)) {
     statistics_.other_sender = sender;
     rejections_.add(another_sender, "tf: " + frame_ + ": sent by " + sender + ", too, but " + sender_.name() +
                                         " is followed: stop one of them");

@@ -26,16 +26,16 @@ TEST(PlayoutClock, TheSampleBeforeTheNewestIsTheEndWhateverTheMoment) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> interval(0.001, 0.2), late(0.0, 10.0), quick(0.0, 0.19);
   PlayoutClock clock(dropout_after);
-  double t = 0.0, before = 0.0, attended = 0.0;
-  clock.sample(t, {100.0, attended});
+  double t = 0.0, before = 0.0, running = 0.0;
+  clock.sample(t, {100.0, running});
   for (int k = 0; k < 500; ++k) {
     before = t;
     t += interval(random);
-    attended += quick(random);
-    clock.sample(t, {100.0 + t, attended});
-    EXPECT_EQ(clock.complete_until({100.0 + t + late(random), attended + quick(random)}), before);
+    running += quick(random);
+    clock.sample(t, {100.0 + t, running});
+    EXPECT_EQ(clock.complete_until({100.0 + t + late(random), running + quick(random)}), before);
   }
-  EXPECT_EQ(clock.complete_until({100.0 + t + 2.0, attended + 1.0}), infinity);  // but silence is silence
+  EXPECT_EQ(clock.complete_until({100.0 + t + 2.0, running + 1.0}), infinity);  // but silence is silence
 }
 
 TEST(PlayoutClock, ButtonsHoldItBackWhileMessagesAboutThemCome) {
@@ -62,18 +62,18 @@ TEST(PlayoutClock, ALocalClockThatGoesBackStandsStill) {
   EXPECT_EQ(clock.rests_until(both(3.0)), clock.rests_until(both(10.02)));
 }
 
-/// One interval in ten times as many is a tenth of the usual one; 0.2 s of attended time are silence.
+/// One interval in ten times as many is a tenth of the usual one; 0.2 s of running time are silence.
 TEST(PlayoutClock, SmoothsTheIntervalAndWaitsForSilence) {
   PlayoutClock clock(dropout_after);
   clock.sample(0.00, both(10.00));
   clock.sample(0.02, both(10.02));
   clock.sample(0.05, both(10.05));
   EXPECT_NEAR(clock.rests_until(both(10.05)), 0.05 - (0.02 + 0.1 * 0.01), 1e-12);
-  for (const double attended : {0.19, 0.21}) {
+  for (const double running : {0.19, 0.21}) {
     PlayoutClock stood(dropout_after);
     stood.sample(0.00, {10.00, 0.0});
     stood.sample(0.02, {10.02, 0.0});
-    EXPECT_EQ(std::isinf(stood.complete_until({20.0, attended})), attended > 0.2) << attended;
+    EXPECT_EQ(std::isinf(stood.complete_until({20.0, running})), running > 0.2) << running;
   }
 }
 

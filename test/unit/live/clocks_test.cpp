@@ -111,7 +111,7 @@ class Session {
   }
   void cycle() {
     HandEvents events;
-    const hand_input::LocalTime arrival{t_, attended_ += 0.008};
+    const hand_input::LocalTime arrival{t_, running_ += 0.008};
     for (const auto& [stamp, p] : waiting_) {
       const std::size_t before = stream_.clock().steps();
       const motion::WallMoment now = host();
@@ -148,7 +148,7 @@ class Session {
   std::vector<std::pair<std::int64_t, Vector3d>> waiting_;
   bool pressed_ = false, releases_ = false;
   Vector3d carried_ = Vector3d::Zero();
-  double t_ = 0.0, attended_ = 0.0, host_set_ = 0.0, sender_set_ = 0.0;
+  double t_ = 0.0, running_ = 0.0, host_set_ = 0.0, sender_set_ = 0.0;
   double strongest_ = 0.0;
   std::int64_t zero_ = 0;
   RigidTransform X_WP_ = RigidTransform::Identity();
@@ -280,8 +280,8 @@ TEST(Senders, SamplesThatWaitedForAStoppedProcessAreToldApart) {
   for (const double stopped : {0.0, 7.0}) {
     motion::StreamClock clock(1.0);
     const auto check = [&](double stamp, double now) {
-      const double unattended = now > 1.0 ? stopped : 0.0;
-      const motion::WallMoment moment{wall_begin + nanoseconds(now), 0, nanoseconds(unattended)};
+      const double not_running = now > 1.0 ? stopped : 0.0;
+      const motion::WallMoment moment{wall_begin + nanoseconds(now), 0, nanoseconds(not_running)};
       return clock.check(wall_begin + nanoseconds(stamp), moment);
     };
     for (double t = 0.0; t < 1.0; t += interval) ASSERT_EQ(check(t, t), StampResult::fits) << t;

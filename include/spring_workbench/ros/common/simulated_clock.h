@@ -30,7 +30,7 @@ class SimulatedClock {
  private:
   ros::Time last_now_;
   bool jumped_ = false;     ///< the clock jumped back, and the streams have not both followed yet
-  double jumped_at_ = 0.0;  ///< when the jump was noticed, in attended time [s]
+  double jumped_at_ = 0.0;  ///< when the jump was noticed, in running time [s]
 };
 
 }  // namespace spring_workbench::ros_common
