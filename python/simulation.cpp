@@ -180,8 +180,8 @@ or nothing. Values that are None are not changed. A value per DOF is a list of t
 - damping_ratio: per DOF, 0 to 10; 1 is critical.
 - damping_coefficient: per DOF [N s/m, N s/m, N m s/rad].
 - damping_law: per_dof, modal or coefficients.
-- damping: per DOF, coefficients with the law coefficients and ratios with the others. Three different ratios change the
-  law modal to per_dof, unless damping_law asks for modal.
+- damping: per DOF, coefficients with the law coefficients and ratios with the others. Ratios that are not all equal
+  change the law modal to per_dof, unless damping_law asks for modal.
 - dofs: per DOF, True if it is on and False if it is rigid.
 - integrator: a name from integrators().
 - step: largest step [s].
@@ -230,7 +230,7 @@ Raises InputError, and changes nothing, if no movable object has such a name or 
 pose: pose of the object's URDF link frame in world, shape (4, 4). Raises InputError if the object or a value is not
 allowed.)")
       .def("reset", &Simulation::reset,
-           "Releases all objects, returns them to their start poses, forgets all samples; time starts again.");
+           "Releases all objects, returns them to their start poses and forgets all samples. Time starts again.");
 }
 
 void update(SimulationSettings& settings, const py::dict& values) {

@@ -141,12 +141,12 @@ void bind_report(py::module& module) {
   py::class_<AdvanceReport>(module, "AdvanceReport",
                             R"(Report on one call of `advance_to`.
 
-A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
-repeated as shorter ones; `substeps` counts the discarded attempts. If that does not help, or the integrator is
-unstable at high stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is rigid
-for the step or, in contact, the object stays in place (`steps_rejected`). If these three counters, `stops`,
-`steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step may take several
-integrations.
+A step is discarded and repeated as shorter ones if its equation is not solved or its error is too large: that in
+position if there is a tolerance, otherwise that in energy; `substeps` counts the discarded attempts. If that does not
+help, or the integrator is unstable at high stiffness, an L-stable rule takes the step (`steps_fallback`). If that
+fails, too, the fork is rigid for the step or, in contact, the object stays in place (`steps_rejected`). If these three
+counters, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step
+may take several integrations.
 
 An error is the result minus the exact solution of the equation of motion. An error bound is an empirical upper
 estimate, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and

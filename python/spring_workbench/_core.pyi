@@ -229,12 +229,12 @@ class ContactState:
 class AdvanceReport:
     """Report on one call of `advance_to`.
 
-    A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
-    repeated as shorter ones; `substeps` counts the discarded attempts. If that does not help, or the integrator is
-    unstable at high stiffness, an L-stable rule takes the step (`steps_fallback`). If that fails, too, the fork is
-    rigid for the step or, in contact, the object stays in place (`steps_rejected`). If these three counters,
-    `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In contact a step
-    may take several integrations.
+    A step is discarded and repeated as shorter ones if its equation is not solved or its error is too large: that in
+    position if there is a tolerance, otherwise that in energy; `substeps` counts the discarded attempts. If that does
+    not help, or the integrator is unstable at high stiffness, an L-stable rule takes the step (`steps_fallback`). If
+    that fails, too, the fork is rigid for the step or, in contact, the object stays in place (`steps_rejected`). If
+    these three counters, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened. In
+    contact a step may take several integrations.
 
     An error is the result minus the exact solution of the equation of motion. An error bound is an empirical upper
     estimate, not a rigorous bound (doc/model.md, "Error bound"). The counters wrench_timeouts and
@@ -463,7 +463,7 @@ class Simulation:
         - damping_ratio: per DOF, 0 to 10; 1 is critical.
         - damping_coefficient: per DOF [N s/m, N s/m, N m s/rad].
         - damping_law: per_dof, modal or coefficients.
-        - damping: per DOF, coefficients with the law coefficients and ratios with the others. Three different ratios
+        - damping: per DOF, coefficients with the law coefficients and ratios with the others. Ratios that are not all equal
           change the law modal to per_dof, unless damping_law asks for modal.
         - dofs: per DOF, True if it is on and False if it is rigid.
         - integrator: a name from integrators().
@@ -504,7 +504,7 @@ class Simulation:
         not allowed."""
 
     def reset(self) -> None:
-        """Releases all objects, returns them to their start poses, forgets all samples; time starts again."""
+        """Releases all objects, returns them to their start poses and forgets all samples. Time starts again."""
 
 def load_scene(path: str, roots: Sequence[str] = ...) -> Scene:
     """Reads a scene from a URDF (a path or package:// URI) and from the YAML file of the same name next to it, if there

@@ -13,7 +13,7 @@ OperatorView operator_view(const simulation::Simulation& simulation) {
   view.objects = simulation.objects();
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
     const tools::ToolState tool = simulation.tool(hand);
-    view.tools.push_back({RigidTransform::Identity(), tools::turns(tool.tool), tool.held_object});
+    view.tools.push_back({RigidTransform::Identity(), tools::turns_object(tool.tool), tool.held_object});
     view.tools.back().X_HE.translation().z() = tool.length;
   }
   return view;

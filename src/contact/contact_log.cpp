@@ -110,7 +110,7 @@ void ContactLog::set_forces(std::size_t object, double h, std::vector<ContactSta
   }
 }
 
-void ContactLog::take(std::size_t object, const ContactLog& from, std::size_t its) {
+void ContactLog::copy(std::size_t object, const ContactLog& from, std::size_t its) {
   touching_[object].clear();
   for (const ContactState& c : from.touching_[its]) {
     if (c.other == "workbench" || scene::find_body(scene_, c.other)) touching_[object].push_back(c);

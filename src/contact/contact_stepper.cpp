@@ -95,7 +95,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     look_at_end(body, X0, small_change * by_load, work, starts, outcome);
     std::vector<ContactRow> assumed = work;
     const std::vector<double> depths = indentations(assumed);
-    const double room = body.reverses() && leave_room(work) ? std::min(slack, solved_share * by_load) : slack;
+    const double room = body.uses_mean_velocity() && leave_room(work) ? std::min(slack, solved_share * by_load) : slack;
     double worst = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
       // What is deeper comes out slowly: at once it would be thrown out. Compliant materials push it out by their law.
@@ -172,7 +172,7 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     // One that is open at first is for the sweep to find: what reverses would bounce from a load that holds it.
     // A surface that is indented already holds it by the force of its depth.
     const bool is_open = row.gap - path.dot(row.point.n_W) > closed;
-    if (!known && body.reverses() && is_open && !is_of_indented(row, work)) continue;
+    if (!known && body.uses_mean_velocity() && is_open && !is_of_indented(row, work)) continue;
     if (!known) {
       work.emplace_back();
       starts.emplace_back();
@@ -273,7 +273,7 @@ ContactStepper::Substep ContactStepper::try_substep(bodies::SteppedBody& body, d
   rows = std::move(solved);
   for (ContactRow& row : rows) row.impulse_W += h * row.load_W;
   body.accept();
-  if (body.reverses()) correct_impulses(body, rows, h);
+  if (body.uses_mean_velocity()) correct_impulses(body, rows, h);
   return {true, in_contact ? std::clamp(straight, 0.5, max_growth) : max_growth, {}};
 }
 

@@ -112,14 +112,14 @@ Couplings::Reading Couplings::read(double t, const RelativeMotions<double>& A_H,
     all.springs.stiffness += to_A.transpose() * of_A.stiffness * to_A;
     all.springs.damping += to_A.transpose() * of_A.damping * to_A;
     all.springs.energy += of_A.energy;
-    all.springs.dissipated += of_A.dissipated;
+    all.springs.dissipated_power += of_A.dissipated_power;
     // A's own motion, from the handle's, and what its pull on the object asks of it.
     const math::Vec3<double> w_WA = A_H.in_frame(i).R_AB * W_H.w_AB - A_H.in_frame(i).w_AB;
     const math::Vec3<double> v_WA =
         A_H.in_frame(i).R_AB * W_H.v_AB - A_H.in_frame(i).v_AB - cross(w_WA, A_H.in_frame(i).p_AB);
     Pull<double> pull{};
     attached_[i].coupling->pull(t, A_O, pull);
-    all.power += dot(pull.force, v_WA) + dot(pull.moment + cross(A_O.p_AB, pull.force), w_WA) - of_A.dissipated;
+    all.power += dot(pull.force, v_WA) + dot(pull.moment + cross(A_O.p_AB, pull.force), w_WA) - of_A.dissipated_power;
   }
   return all;
 }

@@ -101,7 +101,7 @@ StepEstimate Paper::step(const HeldBody& body, const motion::Trajectory& handle,
   if (version_ != body.version()) from_ = state.q;
   if (version_ == body.version() && t != t_) from_ = target_;
   t_ = t;
-  const rod::RestStrain rest = deformation.under_load(body.full_state(t + h, {from_, 0.0 * from_}).q);
+  const rod::EquilibriumStrain rest = deformation.under_load(body.full_state(t + h, {from_, 0.0 * from_}).q);
   target_ = body.coordinates().gather(rest.q);
   version_ = target_.allFinite() ? body.version() : -1;  // otherwise the next search must not start there
 

@@ -116,7 +116,7 @@ void InputFilter::follow(const motion::PoseSample& sample, GateResult result, co
     note(AcceptedInput::Kind::pose, hand, followed.t, followed.X);
   }
   has_sample_ |= input.has_sample;
-  input.playout.sample(sample.t, arrival);  // even if it is late: later samples may still arrive
+  input.playout.add_sample(sample.t, arrival);  // even if it is late: later samples may still arrive
 }
 
 void InputFilter::report_arrival(const LocalTime& arrival, std::size_t hand) {
@@ -131,7 +131,7 @@ void InputFilter::restart_gate(std::size_t hand) {
 }
 
 void InputFilter::confirm_buttons(double t, const LocalTime& arrival, std::size_t hand) {
-  hand_at(hand).playout.buttons(t, arrival);
+  hand_at(hand).playout.confirm_buttons(t, arrival);
 }
 
 void InputFilter::push_edge(double t, motion::ButtonEdge edge, std::size_t hand) {

@@ -7,7 +7,7 @@
 
 namespace spring_workbench::hand_input {
 
-void PlayoutClock::sample(double t, const LocalTime& arrival) {
+void PlayoutClock::add_sample(double t, const LocalTime& arrival) {
   const double interval = t - newest_;
   if (std::isfinite(interval) && interval <= dropout_after_) {
     interval_ = interval_ > 0.0 ? interval_ + new_interval_weight * (interval - interval_) : interval;
@@ -28,7 +28,7 @@ double PlayoutClock::complete_until(const LocalTime& now) const {
 
 double PlayoutClock::rests_until(const LocalTime& now) const { return newest_ + time_since_arrival(now) - interval_; }
 
-void PlayoutClock::buttons(double t, const LocalTime& arrival) {
+void PlayoutClock::confirm_buttons(double t, const LocalTime& arrival) {
   buttons_until_ = std::max(buttons_until_, t);
   buttons_arrival_ = arrival.running;
 }

@@ -13,7 +13,7 @@ const std::string kGroup = "input";
 
 /// A row of the table of settings.
 struct Entry {
-  InputDescription description;
+  InputSettingDescription description;
   std::function<void(const YAML::Node&, const std::string& where, const std::string& name, InputSettings&)> read;
 };
 
@@ -106,8 +106,8 @@ const std::vector<std::string>& names_of(OnLoss) {
   return names;
 }
 
-std::vector<InputDescription> input_descriptions() {
-  std::vector<InputDescription> descriptions;
+std::vector<InputSettingDescription> input_descriptions() {
+  std::vector<InputSettingDescription> descriptions;
   for (const Entry& entry : entries()) descriptions.push_back(entry.description);
   return descriptions;
 }

@@ -69,7 +69,7 @@ void ReadingAverage::touch(double t, const tools::ToolState& tool, const RigidTr
   material_ = touch_->estimate.reading();
 }
 
-void ReadingAverage::take(double t, tools::ToolState& tool, const RigidTransform& X_WT) {
+void ReadingAverage::add(double t, tools::ToolState& tool, const RigidTransform& X_WT) {
   record_instant(t, tool);
   touch(t, tool, X_WT);
   fill_in(tool);

@@ -72,7 +72,9 @@ void Checkpoint::resume(const std::string& text, const std::string& where,
   if (!map.IsMap()) validation::refuse_because("", where, "not a complete checkpoint");
   const std::string given = config::read_string(map["given_scene"], where, "given_scene");
   if (given != given_scene_)
-    validation::refuse(where, "given_scene", given, "the scene of this start, " + given_scene_);
+    validation::refuse_because(
+        where, "given_scene",
+        "the checkpoint is of '" + given + "', but the node was started with '" + given_scene_ + "'");
   const std::string scene = config::read_string(map["scene"], where, "scene");
   const auto state = simulation::parse_state(config::read_string(map["state"], where, "state"));
   const std::shared_ptr<const scene::Scene> present = runner_.scene();

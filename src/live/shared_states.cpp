@@ -5,7 +5,7 @@
 
 namespace spring_workbench::live {
 
-void SharedStates::follow(const simulation::Simulation& simulation) {
+void SharedStates::update_from(const simulation::Simulation& simulation) {
   const std::vector<bodies::BodyState>& states = simulation.objects();
   const bodies::ChangeLog& changes = simulation.object_changes();
   const std::vector<std::size_t> changed = changes.since(at_);

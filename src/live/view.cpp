@@ -17,7 +17,7 @@ spring_workbench::scene::Scene View::present_scene() const {
 
 View view_of(const simulation::Simulation& simulation, std::shared_ptr<const scene::Scene> scene,
              SharedStates& objects) {
-  objects.follow(simulation);
+  objects.update_from(simulation);
   View view{std::move(scene),     simulation.settings(), simulation.time(), simulation.world_time(), objects, {},
             simulation.contacts()};
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) view.tools.push_back(simulation.tool(hand));

@@ -31,7 +31,7 @@ void WrenchTrack::push(const ExternalWrench& sample) {
   next_.push_back(sample);
 }
 
-bool WrenchTrack::follow(double now, double same_time) {
+bool WrenchTrack::advance_to(double now, double same_time) {
   while (!next_.empty() && next_.front().t <= now + same_time) {
     present_ = next_.front();
     next_.pop_front();

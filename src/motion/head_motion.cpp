@@ -4,7 +4,7 @@
 
 namespace spring_workbench::motion {
 
-RigidTransform HeadMotion::follow(double stamp, const RigidTransform& X_FH, double now, double latency) {
+RigidTransform HeadMotion::update(double stamp, const RigidTransform& X_FH, double now, double latency) {
   if (stamp != stamp_) {
     // After a loss, or after the clock was set, earlier samples do not predict the motion.
     if (stamp < stamp_ || stamp > stamp_ + head_dropout) predictor_.restart();

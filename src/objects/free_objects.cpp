@@ -45,8 +45,8 @@ void FreeObjects::take_state(std::size_t object, const motion::MotionState& s) {
   if (collision_) collision_->set_pose(scene_index(object), s.X);
 }
 
-std::string FreeObjects::inside_of(std::size_t object, const RigidTransform& X_WO) const {
-  return collision_ ? collision::inside_of(*collision_, scene_, scene_index(object), X_WO) : "";
+std::string FreeObjects::overlapped_body(std::size_t object, const RigidTransform& X_WO) const {
+  return collision_ ? collision::overlapped_body(*collision_, scene_, scene_index(object), X_WO) : "";
 }
 
 void FreeObjects::wake_unsupported() {

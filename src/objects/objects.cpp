@@ -43,7 +43,7 @@ void Objects::continue_from(const Objects& before, double now) {
       dynamic_stepper_->world().place(scene_index(i), o.X_WO, o.V_WO_W, false);
     }
     objects_[i].slow_since = was.slow_since;
-    contacts_.take(i, before.contacts_, *same);
+    contacts_.copy(i, before.contacts_, *same);
     if (before.in_contact_.count(*same) > 0) in_contact_.insert(i);
   }
 }

@@ -173,8 +173,8 @@ StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const
   return b;
 }
 
-RestStrain StaticDeformation::under_load(const StrainVector& from) const {
-  RestStrain rest;
+EquilibriumStrain StaticDeformation::under_load(const StrainVector& from) const {
+  EquilibriumStrain rest;
   rest.q = from;
   for (int i = 0; i < shape_.size(); ++i) {
     if (active_[static_cast<std::size_t>(i)] && !(K_[i] > 0.0)) rest.q[i] = 0.0;

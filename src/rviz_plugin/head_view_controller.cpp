@@ -46,7 +46,7 @@ void HeadViewController::update(float, float) {
   }
   setStatus("following " + frame_->getFrame());
   if (std::exchange(followed_, fixed + " " + frame) != followed_) motion_ = motion::HeadMotion();
-  const RigidTransform X_FH = motion_.follow(newest.header.stamp.toSec(), pose_of(newest.transform),
+  const RigidTransform X_FH = motion_.update(newest.header.stamp.toSec(), pose_of(newest.transform),
                                              ros::SteadyTime::now().toSec(), static_cast<double>(latency_->getFloat()));
   const Eigen::Vector3f p = X_FH.translation().cast<float>();
   const Eigen::Quaternionf q(X_FH.linear().cast<float>());

@@ -56,8 +56,8 @@ void check_name(const std::string& name, const std::string& where, const std::st
   const std::string unnumbered = numbered ? name.substr(0, number - 1) : name;
   if (name != "world" && name != "workbench" && frames.count(unnumbered) == 0) return;
   validation::refuse(where, key, name,
-                     "a name other than those of frames (world, workbench, or stylus, head, eye_left, eye_right, "
-                     "fork_handle, fork_tip with or without _N)");
+                     "a name that is not that of a frame (world, workbench, stylus, head, eye_left, eye_right, "
+                     "fork_handle, fork_tip; also with a number, as fork_tip_2)");
 }
 
 /// Assembles a scene from its URDF, the YAML file next to it and the URDFs that this file refers to.

@@ -239,7 +239,7 @@ UrdfFile read_urdf_file(const std::string& path) {
     refuse_loops(*robot, path);
     std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
-      if (++links > max_links) validation::refuse(path, "links", "at most " + std::to_string(max_links) + ", got more");
+      if (++links > max_links) validation::refuse(path, "links", "at most " + std::to_string(max_links));
       if (link->Attribute("name") == nullptr)
         validation::refuse_missing(place(path, link->Row()), "link.name", "name of the link");
       file.link_lines[link->Attribute("name")] = link->Row();

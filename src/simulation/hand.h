@@ -52,8 +52,8 @@ class Hand {
   /// Prepares a step of `h` [s] of a tool that shares its object with other tools or pushes it.
   tools::ToolOnObject begin_shared_step(double now, double h);
   /// Returns the object that the tool pushes, as a body that no tool holds.
-  std::unique_ptr<tools::ToolHold> make_unheld(double now) const {
-    return maker().make_unheld(grasped_body(), object().V_WO_W, now);
+  std::unique_ptr<tools::ToolHold> make_pushable(double now) const {
+    return maker().make_pushable(grasped_body(), object().V_WO_W, now);
   }
   /// Ends a step, after the object has been stepped.
   void end_step(AdvanceReport& report);

@@ -200,7 +200,7 @@ std::vector<Field> grasp_fields(S& s) {
        [] { return "none: grasped by button"; },
        [&](const auto& node, const auto& where) {
          object = config::read_string(node, where, "grasp.object");
-         s.grasp.object_place = config::place(node, where);
+         s.grasp.object_location = config::place(node, where);
        },
        [](const auto&) {}},  // checked against the scene later
       {{"grasp.tip_in_object", "double list", "m, –", "the tip frame in the object's centre-of-mass frame"},
@@ -208,7 +208,7 @@ std::vector<Field> grasp_fields(S& s) {
        [] { return "the pose of the tip at the grasp"; },
        [&](const auto& node, const auto& where) {
          tip = config::read_pose(node, where, "grasp.tip_in_object");
-         s.grasp.tip_place = config::place(node, where);
+         s.grasp.tip_location = config::place(node, where);
        },
        [&](const auto& where) {
          if (tip && !tip->matrix().allFinite()) validation::refuse(where, "grasp.tip_in_object", "a finite pose");
@@ -271,7 +271,7 @@ void check_together(const S& settings, const std::string& where) {
         "equal ratios of stretch, bend and torsion if the damping law is modal (the law per_dof takes three)");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    validation::refuse_because(settings.grasp.tip_place, "grasp.tip_in_object",
+    validation::refuse_because(settings.grasp.tip_location, "grasp.tip_in_object",
                                "needs start.follow: true, so that the object can move to it");
   }
 }

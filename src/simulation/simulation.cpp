@@ -77,7 +77,7 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   if (settings.tool) scene.tool = validation::name_of(*settings.tool);
   for (const ObjectEdit& edit : edits) make_edit(edit, roots, settings.massless, scene);
   const tools::GraspSettings& grasp = settings.grasp;
-  if (!grasp.object.empty()) scene::movable_body(scene, grasp.object, grasp.object_place, "grasp.object");
+  if (!grasp.object.empty()) scene::movable_body(scene, grasp.object, grasp.object_location, "grasp.object");
   if (grasp.object.empty() && grasp.start_follow)
     validation::refuse_because("", "start.follow", "needs grasp.object, the object to move");
   return scene;
@@ -215,7 +215,7 @@ void Simulation::Impl::start(double t_end) {
   now = std::min(first_sample(), t_end);
   started = true;
   objects.begin(now);
-  for (Hand& hand : hands) hand.stylus().follow(now);
+  for (Hand& hand : hands) hand.stylus().advance_to(now);
 }
 
 template <typename Change>
@@ -303,7 +303,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
     } else if (!together.empty()) {
       std::vector<tools::ToolOnObject> tools;
       for (Hand* of : together) tools.push_back(of->begin_shared_step(now, h));
-      tools::Sharing sharing(tools, [this, &hand] { return hand.make_unheld(now); });
+      tools::Sharing sharing(tools, [this, &hand] { return hand.make_pushable(now); });
       sharing.body()->set_load(load_W);
       body = shared.emplace(*object, std::move(sharing)).first->second.body();
     }
@@ -370,7 +370,7 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   }
   now = end;
   for (Hand& hand : hands) {
-    hand.stylus().follow(now);
+    hand.stylus().advance_to(now);
     hand.stylus().forget_before(now);
   }
   for (const auto& [hand, pull] : slipping) hand->end_slip(pull, h);
@@ -556,7 +556,7 @@ ChangeReport Simulation::change(const ForkChange& fork, const DynamicsChange& dy
 }
 
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
-  const std::string other = objects.inside_of(*objects.find(name), X_WO);
+  const std::string other = objects.overlapped_body(*objects.find(name), X_WO);
   if (other.empty()) return;
   validation::refuse_because("", "pose", name + " would overlap " + other + " by more than 0.1 mm");
 }

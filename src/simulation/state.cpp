@@ -54,9 +54,9 @@ SimulationState parse_state(const std::string& text) {
     map = YAML::Load(text);
   } catch (const YAML::Exception&) {
   }
-  if (!map.IsMap() || config::read_string(map["format"], where, "format") != format) {
-    validation::refuse(where, "format", format);
-  }
+  if (!map.IsMap()) validation::refuse_because("", where, "not a saved state");
+  if (const std::string found = config::read_string(map["format"], where, "format"); found != format)
+    validation::refuse(where, "format", found, format);
   SimulationState state;
   state.origin_ = config::read_string(map["made_with"], where, "made_with");
   state.styluses_ = config::read_integer(map["styluses"], where, "styluses", 1, 255);

@@ -131,7 +131,7 @@ dynamics::Coupling::Springs ForkCoupling::springs(double t, const dynamics::Rela
   const Vector6d q = Eigen::Map<const Vector6d>(at.fit.q), q_dot = Eigen::Map<const Vector6d>(at.fit.q_dot);
   s.energy = 0.5 * q.dot(K.cwiseProduct(q));
   // Power that enters at the tip and is not stored: in the dampers, and in DOFs that return to zero strain.
-  s.dissipated = rate.dot(K.cwiseProduct(q) + D_ * q_dot) - q_dot.dot(K.cwiseProduct(q));
+  s.dissipated_power = rate.dot(K.cwiseProduct(q) + D_ * q_dot) - q_dot.dot(K.cwiseProduct(q));
   return s;
 }
 

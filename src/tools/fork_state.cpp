@@ -13,7 +13,7 @@ const dynamics::Coupling& ForkBody::coupling() {
 void ForkBody::stop_leading() {
   if (!held_.coupled()) return;
   state_.pull_W = pull();
-  held_.keep_first(0);
+  held_.detach_beyond(0);
 }
 
 void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionState& object) {

@@ -59,7 +59,7 @@ std::unique_ptr<ToolHold> HoldMaker::make(const Grasp& grasp, const GraspedBody&
                                       rest_length, fork_);
 }
 
-std::unique_ptr<ToolHold> HoldMaker::make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const {
+std::unique_ptr<ToolHold> HoldMaker::make_pushable(const GraspedBody& object, const Twist& V_WO_W, double now) const {
   auto body = std::make_unique<ForkBody>(object.index, unheld(object.body, gravity_),
                                          stepping::make_step_control(dynamics_), now, RigidTransform::Identity());
   body->set_hand(frame_at_rest(object.X_WO), now);

@@ -67,7 +67,7 @@ dynamics::Coupling::Springs Probe::springs(double, const dynamics::RelativeMotio
   Springs s;
   if (at.depth <= 0.0) return s;
   s.energy = 0.5 * series_ * at.depth * at.depth;
-  s.dissipated = -at.force * at.speed.z - series_ * at.depth * at.rate;
+  s.dissipated_power = -at.force * at.speed.z - series_ * at.depth * at.rate;
   if (at.force == 0.0) return s;
   const Vector3d axis = Vector3d::UnitZ();
   Vector6d direction;

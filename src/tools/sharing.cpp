@@ -5,14 +5,14 @@
 namespace spring_workbench::tools {
 
 Sharing::Sharing(const std::vector<ToolOnObject>& tools,
-                 const std::function<std::unique_ptr<ToolHold>()>& make_unheld) {
+                 const std::function<std::unique_ptr<ToolHold>()>& make_pushable) {
   // The tool with the fewest coordinates leads, so that its rigid directions are exactly rigid; among equals the first.
   const auto rank = [](const ToolHold& hold) { return std::make_pair(hold.coordinates(), hold.since()); };
   for (const ToolOnObject& tool : tools) {
     if (tool.hold != nullptr && (leader_ == nullptr || rank(*tool.hold) < rank(*leader_))) leader_ = tool.hold;
   }
   if (leader_ == nullptr) {
-    unheld_ = make_unheld();
+    unheld_ = make_pushable();
     leader_ = unheld_.get();
   }
   std::vector<dynamics::Attached> attached;

@@ -72,7 +72,7 @@ dynamics::Coupling::Springs SpringCoupling::springs(double, const dynamics::Rela
   springs.stiffness.topLeftCorner<3, 3>() = k_ * along + across * (Matrix3d::Identity() - along);
   springs.damping.topLeftCorner<3, 3>() = c_ * along;
   springs.energy = 0.5 * k_ * s.extension * s.extension;
-  springs.dissipated = c_ * s.rate * s.rate;
+  springs.dissipated_power = c_ * s.rate * s.rate;
   return springs;
 }
 

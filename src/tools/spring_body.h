@@ -53,7 +53,7 @@ class SpringBody final : public ForkBody {
 
   const dynamics::Coupling& coupling() override { return spring_; }
   void lead(const std::vector<dynamics::Attached>& others) override;
-  void stop_leading() override { held().keep_first(1); }
+  void stop_leading() override { held().detach_beyond(1); }
   void follow(double t, const ToolHold& leader, const motion::MotionState& object) override;
   const motion::MotionSegment& hand() const override { return hand_; }
 

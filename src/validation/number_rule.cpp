@@ -78,7 +78,7 @@ void refuse_because(const std::string& where, const std::string& key, const std:
 }
 
 void refuse_missing(const std::string& where, const std::string& key, const std::string& rule) {
-  if (key.rfind("--", 0) == 0) throw InputError(one_line("missing required option " + key + ": " + rule));
+  if (key.rfind("--", 0) == 0) throw InputError(one_line("command line: missing required option " + key + ": " + rule));
   throw InputError(one_line((where.empty() ? "" : where + ": ") + "missing required key " + key + ": " + rule));
 }
 

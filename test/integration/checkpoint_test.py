@@ -138,7 +138,7 @@ class Checkpoint(unittest.TestCase):
         for spoilt, scene, words in [
             (whole[: len(whole) // 2], SCENE, "the checkpoint is ignored: checkpoint_file: "),
             (whole.replace("000", "001"), SCENE, "damaged: they do not match the hash"),
-            (whole, OTHER_SCENE, f"invalid value '{SCENE}': expected the scene of this start, {OTHER_SCENE}"),
+            (whole, OTHER_SCENE, f"the checkpoint is of '{SCENE}', but the node was started with '{OTHER_SCENE}'"),
         ]:
             with self.subTest(words=words):
                 with open(self.path, "w", encoding="ascii") as file:

@@ -18,7 +18,7 @@ class TaskMonitor {
   /// Uses the targets of `scene`. Without targets there is no task, and `observe` does nothing.
   explicit TaskMonitor(const scene::Scene& scene);
 
-  /// Call after each `advance`: it compares the states of two successive calls.
+  /// Call after each Simulation::advance_to(): it compares the states of two successive calls.
   void observe(const simulation::Simulation& simulation);
   /// Starts the task again.
   void reset();

@@ -33,7 +33,7 @@ class BodyPair final : public SteppedBody {
   void correct(double h, const Wrench& change_F) override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_F) override;
-  bool reverses() const override { return true; }
+  bool uses_mean_velocity() const override { return true; }
   /// Lets both continue from here like one rigid body.
   void block(double h) override;
 

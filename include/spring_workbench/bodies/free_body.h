@@ -21,7 +21,7 @@ class FreeBody final : public SteppedBody {
   void correct(double h, const Wrench& change_W) override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
-  bool reverses() const override { return true; }
+  bool uses_mean_velocity() const override { return true; }
   void block(double h) override;
 
   void archive(math::StateArchive& state) { state(state_.X_WO, state_.velocity, state_.angular_momentum); }

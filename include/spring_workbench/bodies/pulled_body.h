@@ -20,7 +20,7 @@ class PulledBody final : public SteppedBody {
   void correct(double h, const Wrench& change_W) override { free_.correct(h, change_W); }
   Matrix6d mobility() const override { return free_.mobility(); }
   void add_impulse(const Wrench& impulse_W) override { free_.add_impulse(impulse_W); }
-  bool reverses() const override { return true; }
+  bool uses_mean_velocity() const override { return true; }
   void block(double h) override { free_.block(h); }
 
  private:

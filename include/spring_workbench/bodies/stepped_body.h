@@ -73,7 +73,7 @@ class SteppedBody {
   virtual void add_impulse(const Wrench& impulse_W) = 0;
   /// Returns whether the displacement over a step is the mean of the velocities at both ends, times the step. A load
   /// that keeps such a body in place then reverses its velocity.
-  virtual bool reverses() const { return false; }
+  virtual bool uses_mean_velocity() const { return false; }
   /// Lets `h` [s] pass with the body at rest where it is, if no other motion is possible.
   virtual void block(double h) = 0;
   /// Lets `h` [s] pass with the tool rigid, as if it had reached the end of its range, if no other motion is possible

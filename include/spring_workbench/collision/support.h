@@ -39,8 +39,8 @@ inline std::vector<std::size_t> movable_on(const CollisionWorld& world, const sc
 }
 
 /// Returns the name of a body that this one, at `X_WO`, would overlap by more than `support_gap`; empty if none.
-inline std::string inside_of(const CollisionWorld& world, const scene::Scene& scene, std::size_t body,
-                             const RigidTransform& X_WO) {
+inline std::string overlapped_body(const CollisionWorld& world, const scene::Scene& scene, std::size_t body,
+                                   const RigidTransform& X_WO) {
   std::vector<ContactPoint> found;
   world.find_contacts(body, X_WO, support_gap, found);
   if (found.empty()) return "";

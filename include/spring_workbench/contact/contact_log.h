@@ -12,7 +12,7 @@
 
 namespace spring_workbench::contact {
 
-/// A contact of a step of `h` [s] in the world of movable bodies.
+/// Converts a contact of the world of movable bodies after a step of `h` [s].
 ContactRow row_of(const rigid_bodies::WorldContact& contact, double h);
 
 /// Which objects touch which bodies, and since when: the source of `Simulation::contacts`.
@@ -29,7 +29,7 @@ class ContactLog {
   void note(std::size_t object, const std::vector<bodies::BodyState>& states, const std::vector<ContactRow>& rows,
             double h);
   /// Copies to `object` the contacts that object `its` has in `from`, another scene's log, with bodies of this scene.
-  void take(std::size_t object, const ContactLog& from, std::size_t its);
+  void copy(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
 
   /// Mark the start and the end of a call of Simulation::advance_to(); afterwards reported() returns the contacts of

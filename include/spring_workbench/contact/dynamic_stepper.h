@@ -38,7 +38,7 @@ class DynamicStepper {
   /// those of the last. The first body of a contact is movable; if one of the two is held, it comes first.
   const std::vector<rigid_bodies::WorldContact>& contacts() const { return contacts_; }
 
-  /// Exchanges the state between two steps, including that of the world.
+  /// Saves or restores the state between two steps, including that of the world.
   void archive(math::StateArchive& state);
 
  private:

@@ -32,12 +32,12 @@ struct Pull {
 /// prescribed motion. Vectors are in the axes of A.
 class Coupling {
  public:
-  /// Stiffness and damping of the object at its present pose: 6 × 6 [linear; angular], symmetric, ≥ 0.
+  /// The coupling, linearised about the present pose of the object: 6 × 6 [linear; angular], symmetric, ≥ 0.
   struct Springs {
     Matrix6d stiffness = Matrix6d::Zero();  ///< stiffness [N/m, N/rad; N, N·m/rad]
     Matrix6d damping = Matrix6d::Zero();    ///< damping, in the units of the stiffness times s
     double energy = 0.0;                    ///< elastic energy of the springs [J]
-    double dissipated = 0.0;                ///< power that the dampers dissipate [W]
+    double dissipated_power = 0.0;          ///< power that the dampers dissipate [W]
   };
   /// Identifies the law of a coupling's springs and dampers.
   struct Key {
@@ -96,7 +96,7 @@ class Couplings {
   /// Attaches these couplings in place of the present ones. Returns whether the couplings or their laws have changed.
   bool attach(const std::vector<Attached>& couplings);
   /// Detaches all but the first `n` couplings until the next attach(). Attaching them again is no change.
-  void keep_first(std::size_t n) { attached_.resize(std::min(n, attached_.size())); }
+  void detach_beyond(std::size_t n) { attached_.resize(std::min(n, attached_.size())); }
   bool empty() const { return attached_.empty(); }  ///< whether no coupling is attached
 
   /// Computes the motions of the handle relative to the frames at time `t` [s].

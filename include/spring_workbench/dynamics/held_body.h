@@ -104,9 +104,9 @@ class HeldBody {
   void set_path_check(PathCheck check) { path_check_ = std::move(check); }  ///< sets the check for the next step
   const PathCheck& path_check() const { return path_check_; }               ///< the check for the next step
 
-  void attach(const std::vector<Attached>& couplings);          ///< sets the further tools; see Couplings::attach
-  void keep_first(std::size_t n) { couplings_.keep_first(n); }  ///< detaches the others; see Couplings::keep_first
-  bool coupled() const { return !couplings_.empty(); }          ///< whether further tools are attached
+  void attach(const std::vector<Attached>& couplings);                ///< sets the further tools; see Couplings::attach
+  void detach_beyond(std::size_t n) { couplings_.detach_beyond(n); }  ///< see Couplings::detach_beyond
+  bool coupled() const { return !couplings_.empty(); }                ///< whether further tools are attached
   /// Returns the sum over all couplings for a state of the body.
   Couplings::Reading read_couplings(const HandleState& handle, const StrainState& state) const;
 

@@ -18,7 +18,7 @@ struct LinearisedMotion {
   LinearisedMotion(const HeldBody& body, const HandleState& handle, const rod::StrainVector& q);
   /// Size of a change of the rates, all coordinates together: the root of twice its kinetic energy.
   double size(const rod::StrainVector& q_dot) const { return std::sqrt(q_dot.dot(M * q_dot)); }
-  /// Of a step in which the positions change by `d` [s] times the rates at its end.
+  /// Returns the matrix of an implicit step, in which the positions change by `d` [s] times the rates at its end.
   math::ImplicitMatrix implicit(double d) const { return {M, D, K, d}; }
 };
 

@@ -20,11 +20,11 @@ class PlayoutClock {
   explicit PlayoutClock(double dropout_after) : dropout_after_(dropout_after) {}
 
   /// Reports the arrival of a sample with stamp `t` [s].
-  void sample(double t, const LocalTime& arrival);
+  void add_sample(double t, const LocalTime& arrival);
   /// Reports the arrival of a sample that is dropped.
   void report_arrival(const LocalTime& arrival) { arrival_ = arrival; }
   /// Reports that the buttons are known up to `t` [s].
-  void buttons(double t, const LocalTime& arrival);
+  void confirm_buttons(double t, const LocalTime& arrival);
   /// Returns the time up to which the input is complete [s]: −infinity before the second sample, infinity while the
   /// hand is silent.
   double complete_until(const LocalTime& now) const;

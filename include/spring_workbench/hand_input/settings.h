@@ -42,7 +42,7 @@ struct InputSettings {
 };
 
 /// Description of one key; see input_descriptions().
-struct InputDescription {
+struct InputSettingDescription {
   std::string key;            ///< key without "input."
   std::string unit;           ///< SI unit, or "–"
   std::string allowed;        ///< allowed values, e.g. "a number > 0"
@@ -50,7 +50,7 @@ struct InputDescription {
   std::string meaning;        ///< effect of the setting, in one line
 };
 /// Returns the descriptions of all keys of InputSettings, as in doc/reference.md.
-std::vector<InputDescription> input_descriptions();
+std::vector<InputSettingDescription> input_descriptions();
 
 /// Takes the entries "input: {…}" (nested) and "input.…" (dotted) out of `map` and sets the fields that they name, all
 /// or none. Throws InputError, with `where`, key, value and rule, for an unknown key, a wrong type or a value out of

@@ -18,7 +18,7 @@ class ReadingAverage {
   /// Adds the tool's readings at time `t` [s] and fills in their averages; until the first interval is complete, these
   /// are the current readings with unknown uncertainty. A time before the last one, or another object, starts a new
   /// average. `X_WT`: pose of the touched object, if it is movable.
-  void take(double t, tools::ToolState& tool, const RigidTransform& X_WT = RigidTransform::Identity());
+  void add(double t, tools::ToolState& tool, const RigidTransform& X_WT = RigidTransform::Identity());
   /// Fills in the latest averages if `tool` carries or touches the same object; otherwise its own readings with unknown
   /// uncertainty.
   void fill_in(tools::ToolState& tool) const;

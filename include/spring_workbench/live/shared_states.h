@@ -17,7 +17,7 @@ class SharedStates {
   using Parts = std::vector<std::shared_ptr<const Part>>;
 
   /// Copies what has changed in the simulation since the last call.
-  void follow(const simulation::Simulation& simulation);
+  void update_from(const simulation::Simulation& simulation);
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }

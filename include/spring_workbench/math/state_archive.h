@@ -45,7 +45,7 @@ class StateArchive {
   /// Returns the size. Throws std::out_of_range if fewer words are left.
   std::size_t archive_size(std::size_t present) {
     archive(present);
-    if (is_restoring() && present > source_->size() - next_) throw std::out_of_range("it ends too early");
+    if (is_restoring() && present > source_->size() - next_) throw std::out_of_range("it has too few numbers");
     return present;
   }
 
@@ -54,7 +54,7 @@ class StateArchive {
     if (!is_restoring()) {
       words_.push_back(word);
     } else {
-      if (next_ >= source_->size()) throw std::out_of_range("it ends too early");
+      if (next_ >= source_->size()) throw std::out_of_range("it has too few numbers");
       word = (*source_)[next_++];
     }
   }
@@ -66,7 +66,7 @@ class StateArchive {
       words_.resize(words_.size() + size);
       std::memcpy(&words_[words_.size() - size], numbers, size * sizeof(double));
     } else {
-      if (size > source_->size() - next_) throw std::out_of_range("it ends too early");
+      if (size > source_->size() - next_) throw std::out_of_range("it has too few numbers");
       std::memcpy(numbers, &(*source_)[next_], size * sizeof(double));
       next_ += size;
     }

@@ -19,10 +19,10 @@ class WrenchTrack {
   void push(const ExternalWrench& sample);
   /// Moves to time `now` [s]; stamps within `same_time` [s] of each other count as equal. Returns whether the acting
   /// sample has timed out.
-  bool follow(double now, double same_time);
+  bool advance_to(double now, double same_time);
   /// The next time after `now` at which the wrench changes [s]; infinity if there is none.
   double next_change_time(double now, double same_time) const;
-  /// The wrench at the time of the last follow(); none if it is zero.
+  /// The wrench at the time of the last advance_to(); none if it is zero.
   const std::optional<ExternalWrench>& present() const { return present_; }
   void clear();
 

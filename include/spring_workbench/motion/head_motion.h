@@ -13,7 +13,7 @@ class HeadMotion {
   /// Returns the pose of the head in F, predicted from the samples so far for the time `latency` [s] after `now` [s,
   /// steady clock]; with latency 0, the newest sample. `X_FH`: the newest sample, which is new if its `stamp` [s]
   /// differs from the last one.
-  RigidTransform follow(double stamp, const RigidTransform& X_FH, double now, double latency);
+  RigidTransform update(double stamp, const RigidTransform& X_FH, double now, double latency);
 
  private:
   PosePredictor predictor_;

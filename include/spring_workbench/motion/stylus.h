@@ -66,7 +66,7 @@ class Stylus {
     return std::min(edge, wrench_.next_change_time(now, same_time));
   }
   /// Updates the wrench to time `now`. Returns whether it has just timed out.
-  bool follow_wrench(double now) { return wrench_.follow(now, same_time); }
+  bool follow_wrench(double now) { return wrench_.advance_to(now, same_time); }
   /// The wrench at the time of the last follow_wrench(); none if it is zero.
   const std::optional<ExternalWrench>& wrench() const { return wrench_.present(); }
   /// Takes the next button edge up to `now`, if there is one.
@@ -78,7 +78,7 @@ class Stylus {
   }
 
   bool clutched() const { return clutched_; }
-  /// Switches the clutch at `now`, the time of the last follow().
+  /// Switches the clutch at `now`, the time of the last advance_to().
   void set_clutch(bool on, double now) {
     if (clutched_ && !on && known(now)) {
       const RigidTransform X_W = track_.pose(std::max(now, track_.begin()));  // of the hand
@@ -90,12 +90,12 @@ class Stylus {
   }
 
   /// Moves the stylus to its pose at `now`, if that is known.
-  void follow(double now) {
+  void advance_to(double now) {
     if (clutched_ || !known(now)) return;
     X_WS_ = track_.pose(std::max(now, track_.begin()));
     if (displaced_) X_WS_ = of_tool(X_WS_);
   }
-  /// The pose at the last follow().
+  /// The pose at the last advance_to().
   const RigidTransform& X_WS() const { return X_WS_; }
   void forget_before(double now) {
     if (!track_.empty() && track_.begin() < now) track_.forget_before(now);

@@ -43,7 +43,7 @@ class FreeObjects : public ObjectList {
   void take_state(std::size_t object, const motion::MotionState& s);
   /// Returns the name of a body that the object would overlap at `X_WO` by more than `support_gap`; empty if there is
   /// none.
-  std::string inside_of(std::size_t object, const RigidTransform& X_WO) const;
+  std::string overlapped_body(std::size_t object, const RigidTransform& X_WO) const;
   /// Lets the objects that rest on `object`, directly or through other objects, move freely.
   void wake_supported_by(std::size_t object, double now);
 

@@ -12,7 +12,7 @@ class FreePairs;
 
 /// A body that a tool moves in a step.
 struct Carried {
-  std::size_t object;  ///< in the workbench
+  std::size_t object;  ///< index in states()
   bodies::SteppedBody* body;
 };
 
@@ -46,7 +46,7 @@ class Objects : public FreeObjects {
   /// slow for long enough are put to sleep.
   void step(const std::vector<Carried>& held, double now, double h, StepCounts& counts);
 
-  /// Saves or restores the state between two calls of `advance`. Objects that are still as after reset() add nothing to
+  /// Saves or restores the state between two calls of step(). Objects that are still as after reset() add nothing to
   /// it.
   class Archive {
    public:

@@ -41,7 +41,7 @@ struct WorldContact {
   void archive(math::StateArchive& state) { state(body, other, p_W, n_W, depth, impulse_W); }
 };
 
-/// Of two bodies in each other, by their contacts [m].
+/// Returns the largest depth of a contact between two bodies [m], 0 if there is none.
 inline double depth_between(std::size_t a, std::size_t b, const std::vector<WorldContact>& contacts) {
   double depth = 0.0;
   for (const WorldContact& c : contacts) {
@@ -113,7 +113,7 @@ class RigidWorld {
   /// Indices in the scene of the bodies in the world at present: those awake and those near them.
   virtual const std::vector<std::size_t>& bodies_near() const = 0;
 
-  /// Exchanges the whole state between two steps.
+  /// Saves or restores the whole state between two steps.
   virtual void archive(math::StateArchive& state) = 0;
 };
 

@@ -106,8 +106,8 @@ struct ForkChange {
   PerDofChange<double> damping_coefficient;  ///< damping coefficients [N·s/m, N·s/m, N·m·s/rad]
   std::optional<DampingLaw> damping_law;     ///< the damping law
   /// Damping values for the law in force after the change: coefficients with the law `coefficients`, otherwise ratios.
-  /// Example: {0.2, 0.2, 0.2} sets all ratios of a fork with the law `per_dof`. Three different ratios change the law
-  /// `modal` to `per_dof`, unless `damping_law` asks for `modal`.
+  /// Example: {0.2, 0.2, 0.2} sets all ratios of a fork with the law `per_dof`. Ratios that are not all equal change
+  /// the law `modal` to `per_dof`, unless `damping_law` asks for `modal`.
   PerDofChange<double> damping;
 
   bool empty() const { return dofs.empty() && !changes_springs(); }  ///< whether it changes nothing

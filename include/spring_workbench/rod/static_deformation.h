@@ -8,7 +8,7 @@
 namespace spring_workbench::rod {
 
 /// Strain of a fork in equilibrium under a load, and its derivative with respect to the generalised force.
-struct RestStrain {
+struct EquilibriumStrain {
   StrainVector q;
   StrainMatrix compliance;  ///< symmetric, ≥ 0; zero for coordinates without stiffness
   StrainVector
@@ -26,10 +26,11 @@ class StaticDeformation {
                     const Wrench& load_H)
       : shape_(shape), K_(stiffness), active_(active), p_EO_(p_EO), load_H_(load_H) {}
 
-  /// Solves in the paper's order (section 5): bend and stretch at the twist of `from`, then the twist at these.
+  /// Solves in the paper's order (section 5): first bend and stretch with the twist of `from`, then the twist with the
+  /// bend and stretch found.
   /// Repeated calls under a constant load therefore converge to the equilibrium of all coordinates. Newton's method
   /// with a line search, starting at `from`; stops at the end of the rod's range.
-  RestStrain under_load(const StrainVector& from) const;
+  EquilibriumStrain under_load(const StrainVector& from) const;
 
   /// Generalised force of the load, or of another load [force; moment] at the same point.
   StrainVector force(const StrainVector& q) const { return force(q, to_vector(load_H_)); }

@@ -37,13 +37,13 @@ struct SimulationSettings {
   tools::GraspSettings grasp;  ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;  ///< key `dropout_after` [s], > 0: longest gap between samples that is interpolated
   double external_wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10: how long a wrench acts
-  int impact_bisections = 8;             ///< key `impact_bisections`, 0 … 30: to find an impact; 0: compute its time
+  int impact_bisections = 8;             ///< key `impact_bisections`, 0 … 30: bisections that find an impact
 };
 
 /// Throws InputError, with `where`, key, value and rule, if a value or a combination of values is not allowed.
 void validate(const SimulationSettings& settings, const std::string& where);
 
-/// Converts a twist (world axes) to the hand's scales of length and time, for a machine in place of the hand.
+/// Converts a twist of the workbench (world axes) to the hand's scale of length and time, for a machine in its place.
 inline Twist to_hand_units(const Twist& V_W, const SimulationSettings& s) {
   return {s.hand_time_scale / s.hand_scale * V_W.linear, s.hand_time_scale * V_W.angular};
 }

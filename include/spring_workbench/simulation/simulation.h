@@ -52,11 +52,11 @@ SimulationState parse_state(const std::string& text);
 
 /// Report on one call of Simulation::advance_to(), or on several calls whose reports were added by add().
 ///
-/// A step whose equation is not solved, or whose error (without a tolerance: in energy) is too large, is discarded and
-/// repeated as shorter ones (`substeps`). If that does not help, or the integrator is unstable at high stiffness, an
-/// L-stable rule takes it (`steps_fallback`). If that fails, too, the fork is rigid for the step or, in contact, the
-/// object stays (`steps_rejected`; doc/model.md, "Steps that are not solved"). If these three counters, `stops`,
-/// `steps_blocked`, `steps_unsolved` and `time_lost` are all 0, nothing unusual happened.
+/// A step whose equation is not solved or whose error is too large (in position if there is a tolerance, otherwise in
+/// energy) is discarded and repeated as shorter ones (`substeps`). If that does not help, or the integrator is unstable
+/// at high stiffness, an L-stable rule takes it (`steps_fallback`). If that fails, too, the fork is rigid for the step
+/// or, in contact, the object stays (`steps_rejected`; doc/model.md, "Steps that are not solved"). If these three
+/// counters, `stops`, `steps_blocked`, `steps_unsolved` and `time_lost` are 0, nothing unusual happened.
 ///
 /// An error is the result minus the exact solution of the equation of motion. An error bound is an empirical
 /// upper estimate, not a rigorous bound (doc/model.md, "Error bound").
@@ -187,7 +187,7 @@ class Simulation {
   /// `t_end` is not later than time(), only pending buttons act. Throws InputError if `t_end` is not finite.
   AdvanceReport advance_to(double t_end, double pause_at = std::numeric_limits<double>::infinity());
 
-  void reset();  ///< releases all objects, returns them to their start poses, forgets all samples; time starts again
+  void reset();  ///< releases all objects, returns them to their start and forgets all samples; time starts again
   /// Releases all objects and places the named ones at rest at these poses; unsupported ones then fall. Throws
   /// InputError, and changes nothing, if no movable object has such a name or a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
@@ -200,7 +200,7 @@ class Simulation {
   /// starts without strain. The probe cannot hold an object, so a change to it releases the object.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = std::nullopt);
   /// Changes the fork in one hand or, with std::nullopt, in every hand. `dynamics` is changed for all hands, whatever
-  /// `hand` is. `change(fork, {}, 0)`: for hand 0. Throws InputError, and changes nothing, if a value is not allowed.
+  /// `hand` is. `change(fork, {}, 0)`: only hand 0. Throws InputError, and changes nothing, if a value is not allowed.
   ChangeReport change(const ForkChange& fork, const DynamicsChange& dynamics = {},
                       std::optional<std::size_t> hand = std::nullopt);
   /// Calibrates the tool of one hand or, with std::nullopt, of every hand to the object that it holds. With

@@ -42,13 +42,15 @@ struct ControlledStep {
 /// Integrates the held body over a span of time, in one step or in as many as needed.
 ///
 /// A method that is stable at any stiffness takes shorter steps (halves, down to a 64th of the span) if it does not
-/// solve its equation or does not conserve energy well enough (Integrator::Energy). In a minute, its energy errors (its
-/// own estimate or the gain seen in the motion, whichever is larger) may add up to a hundredth of the present energy; a
-/// method that dissipates energy may gain as much. The shortest steps may use the budget of a tenth of a second in
-/// advance. A step whose 64th parts would gain too much, too, by the order of a dissipative method, is not divided. A
-/// step that still fails is taken by an L-stable rule that always has a solution (doc/model.md, "Steps that are not
-/// solved"). If the method fails in two neighbouring parts of a span, that rule takes the next, longer part undivided.
-/// A strain beyond the rod's range meets a stop. So every span is completed.
+/// solve its equation or does not conserve energy well enough (Integrator::Energy):
+/// - In a minute, its energy errors (its own estimate or the gain seen in the motion, whichever is larger) may add up
+/// to
+///   1 % of the present energy. A method that dissipates energy may gain as much.
+/// - The shortest steps may spend 0.1 s of this budget in advance.
+/// - A step of a dissipative method is not divided if its 64th parts would gain too much, too, by the method's order.
+/// - A step that still fails is taken by an L-stable rule that always has a solution (doc/model.md, "Steps that are not
+///   solved"). If the method fails in two neighbouring parts of a span, this rule takes the next, longer part whole.
+/// - A strain beyond the rod's range meets a stop. So every span is completed.
 ///
 /// A tolerance bounds the error of the run at any time: the sum of the estimates of all local errors so far, each
 /// propagated to the present by the method itself. The size of an error is one length [m], which combines the error in

@@ -38,12 +38,12 @@ class HoldMaker {
   HoldMaker(const rod::ForkSettings& fork, const dynamics::DynamicsSettings& dynamics, double gravity)
       : fork_(fork), dynamics_(dynamics), gravity_(gravity) {}
 
-  /// Makes a hold without strain, at time `now` [s]. Set the hand's motion before using it, or restore a state; then
-  /// `before` may be the hold that it replaces, whose integrator it takes over.
+  /// Makes a hold without strain, at time `now` [s], which needs the hand's motion, or a restored state, before it is
+  /// used. If it replaces the hold `before`, it takes over that one's integrator.
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now,
                                  ToolHold* before = nullptr) const;
   /// Makes the object, at time `now` [s], a body that no tool holds and that tools can push. Its mass must be > 0.
-  std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
+  std::unique_ptr<ToolHold> make_pushable(const GraspedBody& object, const Twist& V_WO_W, double now) const;
   /// Makes the object a free body with this twist, under the constant wrench `load_W` of tools at their limits, at its
   /// centre, world axes.
   std::unique_ptr<bodies::SteppedBody> make_pulled(const Grasp& grasp, const GraspedBody& object, const Twist& V_WO_W,

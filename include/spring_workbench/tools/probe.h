@@ -12,9 +12,9 @@ namespace spring_workbench::tools {
 
 /// The nearest point at which the z axis of a hand meets a body or the bench.
 struct AxisHit {
-  double distance = 0.0;              ///< [m]
-  const scene::Body* body = nullptr;  ///< null: the bench plane
-  const scene::Material* material = nullptr;
+  double distance = 0.0;  ///< distance from the hand along the axis [m]; as far as was looked if nothing is hit
+  const scene::Body* body = nullptr;          ///< body that is hit; null: the bench plane or nothing
+  const scene::Material* material = nullptr;  ///< its material; null: nothing is hit
   // The following are in the object frame of the body:
   Vector3d point_O = Vector3d::Zero();   ///< point at which the axis meets it [m]
   Vector3d normal_O = Vector3d::Zero();  ///< outward normal of the surface there

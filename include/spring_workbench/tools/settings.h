@@ -55,8 +55,8 @@ struct GraspSettings {
   std::string object = "";
   /// Key `grasp.tip_in_object` (x y z qx qy qz qw): pose of the tip in the object; absent: its pose at the grasp.
   std::optional<RigidTransform> X_OE;
-  std::string object_place;           ///< internal: the place in a file of `object`, for messages
-  std::string tip_place;              ///< internal: the place in a file of `X_OE`, for messages
+  std::string object_location;        ///< internal: the place in a file of `object`, for messages
+  std::string tip_location;           ///< internal: the place in a file of `X_OE`, for messages
   bool start_follow = false;          ///< key `start.follow`: whether to move the object so that the first pose fits
   Release release = Release::thrown;  ///< motion after a release (key `release`)
 };

@@ -19,9 +19,9 @@ struct ToolOnObject {
 /// follow (doc/model.md, "Several tools on one object").
 class Sharing {
  public:
-  /// `tools`: all tools on the object, with their hands' motions set; `make_unheld`: makes the object as a body that no
-  /// tool holds.
-  Sharing(const std::vector<ToolOnObject>& tools, const std::function<std::unique_ptr<ToolHold>()>& make_unheld);
+  /// `tools`: all tools on the object, with their hands' motions set; `make_pushable`: makes the object as a body that
+  /// no tool holds.
+  Sharing(const std::vector<ToolOnObject>& tools, const std::function<std::unique_ptr<ToolHold>()>& make_pushable);
 
   ToolHold* body() { return leader_; }
   /// Ends the step: the followers follow to time `now` [s]; `object`: motion of the object at that time.

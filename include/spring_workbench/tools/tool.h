@@ -19,7 +19,7 @@ enum class Tool {
 inline std::vector<std::string> names_of(Tool) { return {"spring", "spring_fork", "spring_probe", "direct", "ray"}; }
 inline bool can_hold(Tool tool) { return tool != Tool::spring_probe; }  ///< whether the tool can hold an object
 /// Returns whether an object held by the tool turns with the hand.
-inline bool turns(Tool tool) { return can_hold(tool) && tool != Tool::spring; }
+inline bool turns_object(Tool tool) { return can_hold(tool) && tool != Tool::spring; }
 /// Returns the tool after `tool` or, with `holding`, the next one that can hold an object.
 inline Tool next_tool(Tool tool, bool holding) {
   const Tool next = static_cast<Tool>((static_cast<std::size_t>(tool) + 1) % names_of(tool).size());

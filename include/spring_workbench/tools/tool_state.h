@@ -41,7 +41,7 @@ struct ToolState {
   double stretch = 0.0;      ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();  ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                            ///< angle of torsion about the rod [rad]
-  double load = 0.0;  ///< relative to the scene's heaviest weight, 0 … 1; colours the fork (doc/reference.md, Markers)
+  double load = 0.0;  ///< load as a fraction of the scene's heaviest weight, 0 … 1: colour of the fork
   RigidTransform X_WS = RigidTransform::Identity();  ///< pose of the stylus, without its motion under the clutch
   /// Pose of the handle. It differs from the pose of the stylus after a calibration or a regrasp.
   RigidTransform X_WH = RigidTransform::Identity();

@@ -48,7 +48,7 @@ class ForkRows {
     averages_.resize(simulation.hands());
     for (std::size_t hand = 0; hand < averages_.size(); ++hand) {
       tools::ToolState tool = simulation.tool(hand);
-      averages_[hand].take(simulation.world_time(), tool, touched_pose(simulation, tool));
+      averages_[hand].add(simulation.world_time(), tool, touched_pose(simulation, tool));
       if (hand == 0 || tool.present || motions.count(hand) > 0) rows += fork_row(t, tool, hand);
     }
     return rows;

@@ -243,7 +243,7 @@ std::string help_text() {
     add_key(key, d.unit, d.allowed, d.default_value, d.meaning, text);
   };
   for (const simulation::SettingDescription& d : simulation::setting_descriptions()) add(d.key, d);
-  for (const hand_input::InputDescription& d : hand_input::input_descriptions()) add("input." + d.key, d);
+  for (const hand_input::InputSettingDescription& d : hand_input::input_descriptions()) add("input." + d.key, d);
   return text.str();
 }
 

@@ -26,7 +26,7 @@ void ToolOutput::read(const live::View& view, tools::ToolState& tool) {
       if (object.name == tool.touched) X_WT = object.X_WO;
     }
   }
-  average_.take(view.world_time, tool, X_WT);
+  average_.add(view.world_time, tool, X_WT);
 }
 
 void ToolOutput::publish(const live::View& view, const tools::ToolState& tool, const std_msgs::Header& header) {

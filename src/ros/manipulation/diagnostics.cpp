@@ -148,7 +148,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   if (loop.time_skipped > last_loop_.time_skipped)
     status.warn(increase("simulated time skipped [s]", last_loop_.time_skipped, loop.time_skipped));
   if (loop.cycles_behind > last_loop_.cycles_behind)
-    status.warn("behind the hands: samples are dropped; use larger steps, a softer fork or fewer contacts");
+    status.warn("slower than the hands: samples are dropped; use larger steps, a softer fork or fewer contacts");
   return status.status();
 }
 

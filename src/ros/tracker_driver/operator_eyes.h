@@ -64,7 +64,7 @@ class OperatorEyes {
   static assembly::OperatorView::Tool tool_of(const ForkState& message) {
     assembly::OperatorView::Tool tool;
     tool.X_HE.translation().z() = message.length;
-    tool.turns = tools::turns(validation::named<tools::Tool>(message.tool, "fork", "tool"));
+    tool.turns = tools::turns_object(validation::named<tools::Tool>(message.tool, "fork", "tool"));
     tool.held_object = message.held_object;
     return tool;
   }

@@ -15,7 +15,7 @@ TEST(InputReference, SettingsAreThoseOfTheCode) {
   for (std::string line; std::getline(file, line);) {
     if (line.rfind("| `input.", 0) == 0) given += line + "\n";
   }
-  for (const InputDescription& d : input_descriptions()) {
+  for (const InputSettingDescription& d : input_descriptions()) {
     right += "| `input." + d.key + "` | " + d.unit + " | " + d.allowed + " | " + d.default_value + " | " + d.meaning +
              " |\n";
   }

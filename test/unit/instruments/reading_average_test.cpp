@@ -25,7 +25,7 @@ TEST(ReadingAverage, IntervalsHaveTheirNominalCoverage) {
   for (int run = 0; run < runs; ++run) {
     ReadingAverage average;
     tools::ToolState tool;
-    for (int i = 0; i <= 60; ++i) average.take(0.02 * i, tool = carrying(3.0 + noise(random), -0.1 + noise(random)));
+    for (int i = 0; i <= 60; ++i) average.add(0.02 * i, tool = carrying(3.0 + noise(random), -0.1 + noise(random)));
     covered += std::abs(tool.weight_average.mean - 3.0) < 2.262 * tool.weight_average.uncertainty ? 1 : 0;
     torque_covered += std::abs(tool.torque_average.mean + 0.1) < 2.262 * tool.torque_average.uncertainty ? 1 : 0;
   }
@@ -36,7 +36,7 @@ TEST(ReadingAverage, IntervalsHaveTheirNominalCoverage) {
 TEST(ReadingAverage, IsOfTheLastSecond) {
   ReadingAverage average;
   tools::ToolState tool;
-  for (int i = 0; i <= 300; ++i) average.take(0.01 * i, tool = carrying(i < 170 ? 1.0 : 2.0, i < 170 ? 0.0 : 0.5));
+  for (int i = 0; i <= 300; ++i) average.add(0.01 * i, tool = carrying(i < 170 ? 1.0 : 2.0, i < 170 ? 0.0 : 0.5));
   EXPECT_NEAR(tool.weight_average.mean, 2.0, 1e-12);
   EXPECT_NEAR(tool.torque_average.mean, 0.5, 1e-12);
   EXPECT_LT(tool.weight_average.uncertainty, 1e-12);
@@ -47,7 +47,7 @@ TEST(ReadingAverage, IsOfTheLastSecond) {
 TEST(ReadingAverage, FillsInAToolThatCarriesTheSame) {
   ReadingAverage average;
   tools::ToolState tool;
-  for (int i = 0; i <= 60; ++i) average.take(0.02 * i, tool = carrying(2.0, 0.5));
+  for (int i = 0; i <= 60; ++i) average.add(0.02 * i, tool = carrying(2.0, 0.5));
   tools::ToolState shown = carrying(2.7, 0.9);
   average.fill_in(shown);
   EXPECT_EQ(shown.weight_average.mean, tool.weight_average.mean);
@@ -64,7 +64,7 @@ TEST(ReadingAverage, RestartsWithAnotherObjectAndWhenTimeGoesBack) {
   ReadingAverage average;
   tools::ToolState tool;
   const auto at = [&](double t, double weight, const std::string& object) {
-    average.take(t, tool = carrying(weight, 0.0, object));
+    average.add(t, tool = carrying(weight, 0.0, object));
     return tool.weight_average;
   };
   for (int i = 0; i <= 100; ++i) at(0.02 * i, 5.0, "box");

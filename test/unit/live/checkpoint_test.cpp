@@ -91,7 +91,7 @@ TEST(Checkpoint, OfADamagedTextNothingIsUsed) {
     EXPECT_NE(refusal([&] { other.resume(spoilt, "file", {}); }), "") << at;
   }
   EXPECT_EQ(refusal([&] { Checkpoint(*second.runner, "b.urdf").resume(text, "file", {}); }),
-            "file: given_scene: invalid value 'a.urdf': expected the scene of this start, b.urdf");
+            "file: given_scene: the checkpoint is of 'a.urdf', but the node was started with 'b.urdf'");
   EXPECT_EQ(second.place(), before);
   other.resume(text, "file", {});
   EXPECT_EQ(second.place(), first.place());

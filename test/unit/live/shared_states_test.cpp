@@ -54,7 +54,7 @@ TEST(SharedStates, AreThoseOfTheSimulationAndShareWhatStays) {
       if (k % 80 == 20 || k % 80 == 60) simulation.push_button(t, k % 80 == 20);
       simulation.advance_to(t);
       const SharedStates before = states;
-      states.follow(simulation);
+      states.update_from(simulation);
       expect_same(states, simulation);
       for (std::size_t part = 0; part < states.parts().size(); ++part) shared += states.shares(part, before) ? 1 : 0;
       parts += states.parts().size();
@@ -62,7 +62,7 @@ TEST(SharedStates, AreThoseOfTheSimulationAndShareWhatStays) {
       ASSERT_TRUE(copy.save() == simulation.save()) << k;
       copy.push_button(t, k % 7 < 3);
       copy.advance_to(t + 0.03);
-      copied.follow(copy);
+      copied.update_from(copy);
       expect_same(copied, copy);
     }
     EXPECT_GT(shared, parts / 2);

@@ -102,7 +102,7 @@ TEST(ObjectsMessage, HasTheBytesOfAFreshlySerialisedMessage) {
     std::deque<std::pair<ros::SerializedMessage, std::vector<std::uint8_t>>> unsent;
     for (unsigned k = 0; k < 200; ++k) {
       story.go_on();
-      states.follow(story.simulation());
+      states.update_from(story.simulation());
       std_msgs::Header header;
       header.frame_id = k / 50 % 2 == 0 ? "world" : "another world";
       header.stamp.fromSec(0.01 * k);
@@ -125,7 +125,7 @@ TEST(ObjectsMessage, IsWrittenOverOnesThatAreSent) {
   Story story(1);
   ObjectsMessage message;
   live::SharedStates states;
-  states.follow(story.simulation());
+  states.update_from(story.simulation());
   std::set<const std::uint8_t*> buffers;
   for (int k = 0; k < 20; ++k) {
     message.write({}, states);

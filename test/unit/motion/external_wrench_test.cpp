@@ -29,38 +29,38 @@ TEST(WrenchTrack, EachSampleActsFromItsTimeToTheNext) {
   track.push(sample(1.0, 3.0));
   track.push(sample(1.05, 4.0));
   EXPECT_EQ(track.next_change_time(0.0, same_time), 1.0);
-  EXPECT_FALSE(track.follow(0.99, same_time));
+  EXPECT_FALSE(track.advance_to(0.99, same_time));
   EXPECT_FALSE(track.present());
-  EXPECT_FALSE(track.follow(1.0, same_time));
+  EXPECT_FALSE(track.advance_to(1.0, same_time));
   EXPECT_EQ(track.present()->wrench.force.x(), 3.0);
   EXPECT_EQ(track.next_change_time(1.0, same_time), 1.05);
-  EXPECT_FALSE(track.follow(1.07, same_time));
+  EXPECT_FALSE(track.advance_to(1.07, same_time));
   EXPECT_EQ(track.present()->wrench.force.x(), 4.0);
 }
 
 TEST(WrenchTrack, TheWatchdogSetsItToZeroOnce) {
   WrenchTrack track(timeout);
   track.push(sample(1.0, 3.0));
-  track.follow(1.0, same_time);
+  track.advance_to(1.0, same_time);
   EXPECT_EQ(track.next_change_time(1.0, same_time), 1.0 + timeout);
-  EXPECT_FALSE(track.follow(1.0 + 0.999 * timeout, same_time));
+  EXPECT_FALSE(track.advance_to(1.0 + 0.999 * timeout, same_time));
   EXPECT_TRUE(track.present());
-  EXPECT_TRUE(track.follow(1.0 + timeout, same_time));
+  EXPECT_TRUE(track.advance_to(1.0 + timeout, same_time));
   EXPECT_FALSE(track.present());
-  EXPECT_FALSE(track.follow(1.0 + 2.0 * timeout, same_time));
+  EXPECT_FALSE(track.advance_to(1.0 + 2.0 * timeout, same_time));
   EXPECT_EQ(track.next_change_time(1.0 + 2.0 * timeout, same_time), never);
   track.push(sample(1.5, 5.0));  // and the next one acts again
-  track.follow(1.5, same_time);
+  track.advance_to(1.5, same_time);
   EXPECT_EQ(track.present()->wrench.force.x(), 5.0);
 }
 
 TEST(WrenchTrack, OneThatComesTooLateActsAtOnceOrNotAtAll) {
   WrenchTrack track(timeout);
   track.push(sample(1.0, 3.0));
-  EXPECT_FALSE(track.follow(1.0 + 0.5 * timeout, same_time));
+  EXPECT_FALSE(track.advance_to(1.0 + 0.5 * timeout, same_time));
   EXPECT_EQ(track.present()->wrench.force.x(), 3.0);
   track.push(sample(1.2, 4.0));
-  EXPECT_TRUE(track.follow(1.2 + 2.0 * timeout, same_time));
+  EXPECT_TRUE(track.advance_to(1.2 + 2.0 * timeout, same_time));
   EXPECT_FALSE(track.present());
 }
 
@@ -70,7 +70,7 @@ TEST(WrenchTrack, ALaterMessageReplacesPendingOnesThatAreNotEarlier) {
   for (const double t : {1.0, 2.0, 3.0}) track.push(sample(t, t));
   track.push(sample(1.5, 7.0));
   EXPECT_EQ(track.next_change_time(1.0, same_time), 1.5);
-  track.follow(1.5, same_time);
+  track.advance_to(1.5, same_time);
   EXPECT_EQ(track.present()->wrench.force.x(), 7.0);
   EXPECT_EQ(track.next_change_time(1.5, same_time), 1.5 + timeout);
 }

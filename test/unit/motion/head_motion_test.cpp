@@ -28,7 +28,7 @@ TEST(HeadMotion, ShowsTheNewestSampleWithoutLatency) {
   HeadMotion motion;
   for (int k = 0; k < 100; ++k) {
     const double stamp = newest(frame * k);
-    EXPECT_EQ(motion.follow(stamp, head_at(stamp), frame * k, 0.0).matrix(), head_at(stamp).matrix());
+    EXPECT_EQ(motion.update(stamp, head_at(stamp), frame * k, 0.0).matrix(), head_at(stamp).matrix());
   }
 }
 
@@ -40,7 +40,7 @@ TEST(HeadMotion, IsWhereAnEvenMotionWillBe) {
     double farthest = 0.0;
     for (int k = 0; k < 200; ++k) {
       const double now = frame * k, stamp = newest(now);
-      const RigidTransform X = motion.follow(stamp, head_at(stamp), now, latency);
+      const RigidTransform X = motion.update(stamp, head_at(stamp), now, latency);
       // The latency of a sample is unknown, so the time since the first frame that showed it counts.
       const double first_seen = std::ceil(stamp / frame - 1e-9) * frame;
       if (k > 20) farthest = std::max(farthest, distance(X, head_at(stamp + latency + now - first_seen)));
@@ -53,9 +53,9 @@ TEST(HeadMotion, RestsAfterADropoutAndAJumpOfTime) {
   for (const double jump : {3.0, -3.0}) {
     HeadMotion motion;
     double t = 10.0;
-    for (; t < 11.0; t += interval) motion.follow(t, head_at(t), t, 0.05);
+    for (; t < 11.0; t += interval) motion.update(t, head_at(t), t, 0.05);
     const RigidTransform X = head_at(t + 5.0);
-    EXPECT_EQ(motion.follow(t + jump, X, t, 0.05).matrix(), X.matrix()) << jump;
+    EXPECT_EQ(motion.update(t + jump, X, t, 0.05).matrix(), X.matrix()) << jump;
   }
 }
 

@@ -676,9 +676,10 @@ TEST_F(LoadScene, AnObjectWithTheNameOfAFrameIsRefused) {
         "<joint name='j' type='floating'><parent link='world'/><child link='" + name + "'/></joint>";
     EXPECT_TRUE(
         has(refusal("<link name='world'/><link name='" + name + "'>" + unit_box + "</link>" + joint),
-            "link '" + name + "': name: invalid value '" + name + "': expected a name other than those of frames"));
-    EXPECT_TRUE(has(part_refusal(unit_box, "objects: {" + name + ": {urdf: mug.urdf}}"),
-                    "scene.yaml:1: objects: invalid value '" + name + "': expected a name other than those of frames"));
+            "link '" + name + "': name: invalid value '" + name + "': expected a name that is not that of a frame"));
+    EXPECT_TRUE(
+        has(part_refusal(unit_box, "objects: {" + name + ": {urdf: mug.urdf}}"),
+            "scene.yaml:1: objects: invalid value '" + name + "': expected a name that is not that of a frame"));
     EXPECT_THROW(read_object(name, folder_.path("mug.urdf"), {}, load_part(unit_box), {}, "test"),
                  validation::InputError);
   }

@@ -54,7 +54,7 @@ struct Press {
       simulation.advance_to(0.02 * k);
       tools::ToolState tool = simulation.tool();
       tool.X_WS.translation() += Vector3d(normal(random), normal(random), normal(random));
-      readings.take(0.02 * k, tool, mass > 0.0 ? object(simulation, "block").X_WO : RigidTransform::Identity());
+      readings.add(0.02 * k, tool, mass > 0.0 ? object(simulation, "block").X_WO : RigidTransform::Identity());
       if (!tool.touched.empty()) of_touch = readings;
       tell(tool);
     }
