@@ -37,7 +37,7 @@ struct SimulationSettings {
   tools::GraspSettings grasp;  ///< keys `calibrate`, `calibration.…`, `grasp.…`, `start.follow`, `release`
   double dropout_after = 0.5;  ///< key `dropout_after` [s], > 0: longest gap between samples that is interpolated
   double external_wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], 1e-3 … 10: how long a wrench acts
-  int impact_bisections = 8;             ///< key `impact_bisections`, 0 … 30: bisections that find an impact
+  int impact_bisections = 8;             ///< key `impact_bisections`, 0 … 30: to find an impact; 0: compute its time
 };
 
 /// Throws InputError, with `where`, key, value and rule, if a value or a combination of values is not allowed.

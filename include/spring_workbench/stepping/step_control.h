@@ -43,8 +43,7 @@ struct ControlledStep {
 ///
 /// A method that is stable at any stiffness takes shorter steps (halves, down to a 64th of the span) if it does not
 /// solve its equation or does not conserve energy well enough (Integrator::Energy):
-/// - In a minute, its energy errors (its own estimate or the gain seen in the motion, whichever is larger) may add up
-/// to
+/// - In a minute, its energy errors (its own estimate or the gain seen in the motion, whichever is larger) may reach
 ///   1 % of the present energy. A method that dissipates energy may gain as much.
 /// - The shortest steps may spend 0.1 s of this budget in advance.
 /// - A step of a dissipative method is not divided if its 64th parts would gain too much, too, by the method's order.
